@@ -1,0 +1,40 @@
+"""Flexible fibers that sink in a viscous fluid: simulation, steady shapes, reduced models.
+
+Lengths are in bead radii ``a``, times in ``a/U_s``, forces in ``6πμaU_s``.
+Public names are imported on first use, so that a simulation never pays for torch.
+"""
+
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
+
+try:
+    __version__ = version("sedfiber")
+except PackageNotFoundError:  # run from a checkout that is not installed
+    __version__ = "0+checkout"
+
+_EXPORTS = {
+    "InputError": "sedfiber.errors",
+    "NumericalError": "sedfiber.errors",
+    "Numerics": "sedfiber.simulation",
+    "Scene": "sedfiber.scene",
+    "SedfiberError": "sedfiber.errors",
+    "SteadyState": "sedfiber.physics.steady",
+    "Trajectory": "sedfiber.trajectory",
+    "load_model": "sedfiber.forecasting",
+    "read_trajectory": "sedfiber.trajectory_file",
+    "simulate": "sedfiber.simulation",
+    "steady_state": "sedfiber.physics.steady",
+    "write_trajectory": "sedfiber.trajectory_file",
+}
+
+__all__ = [*_EXPORTS, "__version__"]
+
+
+def __getattr__(name: str):
+    if name not in _EXPORTS:
+        raise AttributeError(f"module 'sedfiber' has no attribute {name!r}")
+    return getattr(import_module(_EXPORTS[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -1,0 +1,7 @@
+"""``python -m sedfiber`` is the command ``sedfiber``."""
+
+import sys
+
+from sedfiber.cli import main
+
+sys.exit(main())

@@ -1,0 +1,16 @@
+"""Array aliases; the name says what the axes are.
+
+Lengths are in bead radii ``a``, times in ``a/U_s``, forces in ``6πμaU_s``.
+"""
+
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Positions = Annotated[Array, "(N, d): one row a bead, d = 2 in the plane and 3 in volume"]
+Matrix = Annotated[Array, "(N d, N d): rows and columns ordered bead by bead"]
+State = Annotated[Array, "(N d,): flattened positions in the frame of the centre bead"]
+Times = Annotated[Array, "(T,)"]
+History = Annotated[Array, "(T, N, 3)"]

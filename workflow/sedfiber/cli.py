@@ -1,0 +1,42 @@
+"""The ``sedfiber`` command: one module of ``sedfiber.commands`` per verb."""
+
+import argparse
+import sys
+from importlib import import_module
+from typing import NoReturn
+
+from sedfiber.errors import SedfiberError
+
+COMMANDS = {
+    "simulate": "integrate one fiber and write its trajectory",
+    "steady": "terminal shape and speed at one elasto-gravitational number",
+    "forecast": "forecast one fiber with the trained model",
+}
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """An argument parser whose errors are one line."""
+
+    def error(self, message: str) -> NoReturn:
+        self.exit(2, f"{self.prog}: {message}\n")
+
+
+def main(argv: list[str] | None = None) -> int:
+    """Run one command; returns the exit status: 0, 1 for a failure, 2 for bad usage."""
+    argv = sys.argv[1:] if argv is None else argv
+    parser = OneLineParser(prog="sedfiber", description=__doc__.splitlines()[0])
+    verbs = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
+    chosen = next((word for word in argv if not word.startswith("-")), None)
+    for name, summary in COMMANDS.items():
+        sub = verbs.add_parser(name, help=summary, description=summary)
+        if name == chosen:  # only the chosen command is imported
+            import_module(f"sedfiber.commands.{name}").add_arguments(sub)
+    args = parser.parse_args(argv)
+    try:
+        import_module(f"sedfiber.commands.{args.command}").run(args)
+    except SedfiberError as error:
+        print(f"sedfiber {args.command}: {error}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    return 0

@@ -1,0 +1,1 @@
+"""The reduced-order model: autoencoder, neural ODE, forecasts, baselines and error measures."""

@@ -1,0 +1,14 @@
+"""Integrators by name; each yields the state at every multiple of a sampling interval."""
+
+from sedfiber.physics.integrators.base import Counters, March, Tolerances
+from sedfiber.physics.integrators.dopri5 import Dopri5
+from sedfiber.physics.integrators.implicit import BDFMarch, LSODAMarch, RadauMarch
+
+INTEGRATORS: dict[str, type[March]] = {
+    "BDF": BDFMarch,
+    "Radau": RadauMarch,
+    "LSODA": LSODAMarch,
+    "dopri5": Dopri5,
+}
+
+__all__ = ["INTEGRATORS", "Counters", "March", "Tolerances"]

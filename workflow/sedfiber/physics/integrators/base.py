@@ -1,0 +1,58 @@
+"""What every integrator has in common: a march through equally spaced samples."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from sedfiber._typing import State
+from sedfiber.errors import NumericalError
+from sedfiber.physics.system import System
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """Local error per step: ``atol + rtol |y|``, ``atol`` in units of a."""
+
+    rtol: float
+    atol: float
+
+
+@dataclass
+class Counters:
+    """What a march cost, in numbers that hold on any machine."""
+
+    steps: int = 0
+    rhs: int = 0
+    jacobians: int = 0
+    factorisations: int = 0
+
+
+class March(ABC):
+    """States at ``t = 0, τ, 2τ, …`` for as long as the caller asks for more.
+
+    A subclass sets ``name`` and writes ``states``.  A step that fails, or a state that is
+    not finite, raises NumericalError: no solver's own success flag is trusted alone.
+    """
+
+    name: str
+
+    def __init__(self, system: System, tolerances: Tolerances):
+        self.system = system
+        self.tolerances = tolerances
+        self.counters = Counters()
+
+    @abstractmethod
+    def states(self, start: State, interval: float) -> Iterator[State]:
+        """Yield the start, then the state after each further ``interval``."""
+
+    def failed(self, t: float, why: str, advice: str) -> NumericalError:
+        """The error for a march that stops at time ``t``."""
+        return NumericalError(f"{self.name}: {why} at t = {t:.6g} a/U_s; {advice}")
+
+    def require_finite(self, t: float, y: State) -> State:
+        """``y`` itself, or NumericalError when a coordinate is NaN or infinite."""
+        if not np.all(np.isfinite(y)):
+            raise self.failed(t, "a bead position is not finite", "try a smaller --rtol")
+        return y

@@ -1,0 +1,70 @@
+"""SciPy's implicit solvers, stepped one by one with the analytic Jacobian."""
+
+from collections.abc import Iterator
+
+import numpy as np
+from scipy.integrate import BDF, LSODA, OdeSolver, Radau
+
+from sedfiber._typing import State
+from sedfiber.physics.integrators.base import March
+
+_MAX_STEPS_PER_SAMPLE = 20_000
+
+
+class _SciPyMarch(March):
+    """Step a SciPy ``OdeSolver`` and read the samples off its dense output."""
+
+    solver_class: type[OdeSolver]
+
+    def states(self, start: State, interval: float) -> Iterator[State]:
+        solver = self.solver_class(
+            self.system.rhs,
+            0.0,
+            start,
+            np.inf,
+            rtol=self.tolerances.rtol,
+            atol=self.tolerances.atol,
+            jac=self.system.jacobian,
+        )
+        yield start
+        sample, steps_before = 1, 0
+        while True:
+            self._step(solver)
+            if self.counters.steps - steps_before > _MAX_STEPS_PER_SAMPLE:
+                raise self.failed(solver.t, "too many steps in one sample", "try another --integrator")
+            if sample * interval > solver.t:
+                continue
+            path = solver.dense_output()
+            while sample * interval <= solver.t:
+                yield self.require_finite(solver.t, path(sample * interval))
+                sample, steps_before = sample + 1, self.counters.steps
+
+    def _step(self, solver: OdeSolver) -> None:
+        before = solver.t
+        message = solver.step()
+        self.counters.steps += 1
+        self.counters.rhs = self.system.rhs_count
+        self.counters.jacobians = self.system.jacobian_count
+        self.counters.factorisations = int(solver.nlu)
+        self.require_finite(solver.t, solver.y)
+        if solver.status != "running" or solver.t <= before:
+            why = message or "the step size fell to zero"
+            raise self.failed(solver.t, why, "try another --rtol or --integrator")
+
+
+class BDFMarch(_SciPyMarch):
+    """Variable-order backward differentiation, orders 1–5 (Shampine & Reichelt 1997)."""
+
+    name, solver_class = "BDF", BDF
+
+
+class RadauMarch(_SciPyMarch):
+    """Implicit Runge–Kutta Radau IIA of order 5 (Hairer & Wanner 1996)."""
+
+    name, solver_class = "Radau", Radau
+
+
+class LSODAMarch(_SciPyMarch):
+    """ODEPACK's switching Adams/BDF method (Petzold 1983)."""
+
+    name, solver_class = "LSODA", LSODA

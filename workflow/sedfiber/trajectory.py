@@ -1,0 +1,38 @@
+"""A trajectory in memory: samples and what is known about how they were made."""
+
+from dataclasses import dataclass, field
+
+from sedfiber._typing import History, Times
+
+
+@dataclass(frozen=True)
+class Trajectory:
+    """``t`` (T,) in a/U_s, ``positions`` (T, N, 3) in a, ``metadata`` of plain values.
+
+    ``metadata`` holds the scene, both ℬ numbers, how the run was made, its counters, its
+    checks and the settling time: deterministic facts only.
+    """
+
+    t: Times
+    positions: History
+    metadata: dict = field(default_factory=dict)
+
+    @property
+    def n_beads(self) -> int:
+        """Number of beads N."""
+        return self.positions.shape[1]
+
+    @property
+    def centre(self) -> History:
+        """Position of the centre bead, (T, 3)."""
+        return self.positions[:, self.n_beads // 2]
+
+    @property
+    def shape(self) -> History:
+        """Positions relative to the centre bead, (T, N, 3)."""
+        return self.positions - self.centre[:, None]
+
+    @property
+    def settling_time(self) -> float | None:
+        """T(ℬ, θ₀) in a/U_s, or None when the run ended before it settled."""
+        return self.metadata.get("settling_time")

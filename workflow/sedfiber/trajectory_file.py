@@ -1,0 +1,82 @@
+"""Trajectories as Parquet: one row per sample, facts as JSON under the key ``sedfiber``."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from sedfiber._typing import Positions
+from sedfiber.atomic_file import replaced_when_done
+from sedfiber.errors import InputError
+from sedfiber.trajectory import Trajectory
+
+METADATA_KEY = b"sedfiber"
+
+
+def coordinate_names(n_beads: int) -> list[str]:
+    """``x0, y0, z0, x1, …``: the column of each coordinate, bead by bead."""
+    return [f"{axis}{bead}" for bead in range(n_beads) for axis in "xyz"]
+
+
+def bead_count(names: list[str]) -> int:
+    """Number of beads among column names; 0 when the coordinates are not complete."""
+    n_beads = sum(name.startswith("x") and name[1:].isdigit() for name in names)
+    return n_beads if set(coordinate_names(n_beads)) <= set(names) else 0
+
+
+def write_table(path: Path, columns: dict[str, np.ndarray], metadata: dict) -> None:
+    """Write named columns with JSON metadata; the same input gives the same bytes."""
+    facts = json.dumps(metadata, sort_keys=True, allow_nan=False)
+    arrays = [_arrow_array(values) for values in columns.values()]
+    table = pa.Table.from_arrays(arrays, names=list(columns), metadata={METADATA_KEY: facts.encode()})
+    with replaced_when_done(path) as partial:
+        pq.write_table(table, partial, compression="zstd")
+
+
+def _arrow_array(values: np.ndarray) -> pa.Array:
+    """Wrap a float column without ``pa.array``, which would import pandas."""
+    buffer = pa.py_buffer(np.ascontiguousarray(values, dtype=np.float64))
+    return pa.Array.from_buffers(pa.float64(), len(values), [None, buffer])
+
+
+def read_table(path: Path) -> tuple[pa.Table, dict]:
+    """The table and its metadata; raises InputError for anything that is not such a file."""
+    try:
+        table = pq.read_table(path)
+    except FileNotFoundError:
+        raise InputError(f"input: {str(path)!r} does not exist") from None
+    except (pa.ArrowException, OSError):
+        raise InputError(f"input: {str(path)!r} is not a readable Parquet file (damaged or truncated?)") from None
+    facts = (table.schema.metadata or {}).get(METADATA_KEY)
+    if facts is None:
+        raise InputError(f"input: {str(path)!r} was not written by sedfiber (no metadata)")
+    return table, json.loads(facts)
+
+
+def coordinate_columns(positions: Positions) -> dict[str, np.ndarray]:
+    """Positions (T, N, 3) as one contiguous column per coordinate."""
+    flat = np.ascontiguousarray(positions.reshape(len(positions), -1).T)
+    return dict(zip(coordinate_names(positions.shape[1]), flat, strict=True))
+
+
+def positions_of(table: pa.Table) -> Positions:
+    """Positions (T, N, 3) of a table with coordinate columns."""
+    names = coordinate_names(bead_count(table.column_names))
+    flat = np.array([table.column(name).to_numpy() for name in names])
+    return np.ascontiguousarray(flat.T).reshape(table.num_rows, -1, 3)
+
+
+def write_trajectory(trajectory: Trajectory, path: str | Path) -> None:
+    """Write ``t`` and all coordinates, metadata included; atomic and byte-identical on rerun."""
+    columns = {"t": np.asarray(trajectory.t)} | coordinate_columns(trajectory.positions)
+    write_table(Path(path), columns, trajectory.metadata)
+
+
+def read_trajectory(path: str | Path) -> Trajectory:
+    """Read a trajectory; raises InputError when the file is missing, damaged or incomplete."""
+    table, metadata = read_table(Path(path))
+    if "t" not in table.column_names or bead_count(table.column_names) == 0 or table.num_rows == 0:
+        raise InputError(f"input: {str(path)!r} is not a trajectory (columns t, x0, y0, z0, … expected)")
+    return Trajectory(table.column("t").to_numpy(), positions_of(table), metadata)

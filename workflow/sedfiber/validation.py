@@ -1,0 +1,49 @@
+"""One-line checks of single values, shared by scenes, commands and settings."""
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from sedfiber.errors import InputError
+
+
+def finite_number(key: str, value: Any, allowed: str = "a finite number") -> float:
+    """``value`` as a float; raises InputError for text, NaN, infinities and booleans."""
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        number = float(value)
+    except (TypeError, ValueError):
+        raise refused(key, value, allowed) from None
+    if not math.isfinite(number):
+        raise refused(key, value, allowed)
+    return number
+
+
+def positive_number(key: str, value: Any, allowed: str = "a finite number above 0") -> float:
+    """``value`` as a float above zero, or InputError."""
+    number = finite_number(key, value, allowed)
+    if number <= 0.0:
+        raise refused(key, value, allowed)
+    return number
+
+
+def whole_number(key: str, value: Any, allowed: str, least: int = 0) -> int:
+    """``value`` as an int of at least ``least``, or InputError."""
+    number = finite_number(key, value, allowed)
+    if number != int(number) or number < least:
+        raise refused(key, value, allowed)
+    return int(number)
+
+
+def one_of(key: str, value: Any, choices: Iterable[str]) -> str:
+    """``value`` if it is among ``choices``, or InputError listing them."""
+    choices = tuple(choices)
+    if value not in choices:
+        raise refused(key, value, "one of " + ", ".join(choices))
+    return value
+
+
+def refused(key: str, value: Any, allowed: str) -> InputError:
+    """The error for one key: its name, the value given and what is allowed."""
+    return InputError(f"{key}: {value!r} is not allowed; give {allowed}")
