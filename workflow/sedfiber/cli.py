@@ -11,6 +11,9 @@ COMMANDS = {
     "simulate": "integrate one fiber and write its trajectory",
     "steady": "terminal shape and speed at one elasto-gravitational number",
     "forecast": "forecast one fiber with the trained model",
+    "solve_terminal_shapes": "steady shapes of several elasto-gravitational numbers in one table",
+    "aggregate_dataset": "the trajectories of one split as one data set",
+    "tabulate_trajectories": "settling time, cost and checks of every run",
 }
 
 

@@ -35,20 +35,20 @@ class Scene:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        set_ = lambda key, value: object.__setattr__(self, key, value)  # noqa: E731
-        set_("B", positive_number("B", self.B))
-        set_("theta0", finite_number("theta0", self.theta0, "radians between -π and π"))
-        if abs(self.theta0) > math.pi:
-            raise refused("theta0", self.theta0, "radians between -π and π")
-        set_("n_beads", whole_number("n_beads", self.n_beads, "an odd number from 3 up", 3))
+        self._set("B", positive_number("B", self.B))
+        self._set("theta0", _number_within("theta0", self.theta0, -math.pi, math.pi, "radians between -π and π"))
+        odd = "an odd number from 3 up"
+        self._set("n_beads", whole_number("n_beads", self.n_beads, odd, 3))
         if self.n_beads % 2 == 0:
-            raise refused("n_beads", self.n_beads, "an odd number from 3 up")
+            raise refused("n_beads", self.n_beads, odd)
         one_of("space", self.space, SPACES)
         one_of("hydrodynamics", self.hydrodynamics, HYDRODYNAMICS)
-        set_("tilt", finite_number("tilt", self.tilt, "radians between 0 and 0.1"))
-        if not 0.0 <= self.tilt <= 0.1:
-            raise refused("tilt", self.tilt, "radians between 0 and 0.1")
-        set_("seed", whole_number("seed", self.seed, "a whole number from 0 up"))
+        self._set("tilt", _number_within("tilt", self.tilt, 0.0, 0.1, "radians between 0 and 0.1"))
+        self._set("seed", whole_number("seed", self.seed, "a whole number from 0 up"))
+
+    def _set(self, key: str, value: float) -> None:
+        """Store the converted value: a command hands over text."""
+        object.__setattr__(self, key, value)
 
     @property
     def dim(self) -> int:
@@ -100,3 +100,10 @@ class Scene:
             what = "unknown key" if unknown else "missing key"
             raise InputError(f"scene: {what} {name!r}; keys are {', '.join(cls.__dataclass_fields__)}")
         return cls(**values)
+
+
+def _number_within(key: str, value: float, low: float, high: float, allowed: str) -> float:
+    number = finite_number(key, value, allowed)
+    if not low <= number <= high:
+        raise refused(key, value, allowed)
+    return number

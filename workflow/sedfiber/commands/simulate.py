@@ -2,6 +2,7 @@
 
 import argparse
 import math
+from dataclasses import replace
 from pathlib import Path
 
 from sedfiber.atomic_file import require_writable
@@ -36,12 +37,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Validate everything, integrate, write."""
-    scene = Scene(**_given(args, Scene) | _inclination(args))
+    index = None if args.angle_index is None else _angle_index(args.angle_index)
+    theta0 = args.theta0 if index is None else index * math.pi / ANGLES_PER_HALF_TURN
+    scene = Scene(**_given(args, Scene) | {"theta0": theta0})
     numerics = Numerics(**_given(args, Numerics))
     t_end = None if args.t_end is None else positive_number("t_end", args.t_end)
     require_writable(args.output)
     trajectory = simulate(scene, numerics, t_end)
-    write_trajectory(trajectory, args.output)
+    labelled = replace(trajectory, metadata=trajectory.metadata | {"angle_index": index})
+    write_trajectory(labelled, args.output)
 
 
 def _given(args: argparse.Namespace, kind: type) -> dict:
@@ -50,9 +54,6 @@ def _given(args: argparse.Namespace, kind: type) -> dict:
     return {key: value for key, value in values.items() if value is not None}
 
 
-def _inclination(args: argparse.Namespace) -> dict:
-    if args.angle_index is None:
-        return {"theta0": args.theta0}
-    allowed = f"a whole number from 0 to {ANGLES_PER_HALF_TURN}"
-    index = whole_number("angle_index", args.angle_index, allowed)
-    return {"theta0": index * math.pi / ANGLES_PER_HALF_TURN}
+def _angle_index(value: str) -> int:
+    """k in θ₀ = k π/48; files and keys hold k, never a rounded angle."""
+    return whole_number("angle_index", value, f"a whole number from 0 to {ANGLES_PER_HALF_TURN}")

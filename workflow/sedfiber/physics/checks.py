@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from sedfiber._typing import History, State
+from sedfiber._typing import State
 from sedfiber.errors import NumericalError
 from sedfiber.physics.pair_mobility import smallest_gap
 from sedfiber.physics.system import System

@@ -102,7 +102,7 @@ def add_mobility_gradient(x: Positions, force: Positions, overlap: bool, jac: Ma
                 r[k] = x[i, k] - x[j, k]
                 r2 += r[k] * r[k]
             dist = np.sqrt(r2)
-            c1, c2, dc1, dc2 = coefficients(dist, overlap)
+            _, c2, dc1, dc2 = coefficients(dist, overlap)
             e1 = dc1 / dist
             e2 = c2 / r2
             e3 = (dc2 - 2.0 * c2 / dist) / (r2 * dist)

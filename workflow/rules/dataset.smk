@@ -1,0 +1,55 @@
+# From single files to one data set, partitioned by split so that a changed test set
+# reruns no training.
+
+
+rule solve_terminal_shapes:
+    input:
+        sources("solve_terminal_shapes"),
+    output:
+        "results/terminal_shapes/{split}.parquet",
+    log:
+        "results/logs/solve_terminal_shapes/{split}.log",
+    benchmark:
+        "results/benchmarks/solve_terminal_shapes/{split}.tsv"
+    conda:
+        "../../envs/simulate.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        B=lambda wildcards: STUDY.B_values(wildcards.split),
+        options=STUDY.steady_options,
+    message:
+        "solve the terminal shapes of split {wildcards.split}"
+    shell:
+        "sedfiber solve_terminal_shapes --B {params.B} {params.options} -o {output} > {log} 2>&1"
+
+
+rule aggregate_dataset:
+    input:
+        sources("aggregate_dataset"),
+        trajectories=lambda wildcards: trajectories(wildcards.split),
+    output:
+        "results/dataset/{split}.parquet",
+    log:
+        "results/logs/aggregate_dataset/{split}.log",
+    benchmark:
+        "results/benchmarks/aggregate_dataset/{split}.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    message:
+        "aggregate split {wildcards.split}"
+    shell:
+        "sedfiber aggregate_dataset --split {wildcards.split} {input.trajectories}"
+        " -o {output} > {log} 2>&1"
+
+
+rule dataset:
+    input:
+        expand("results/dataset/{split}.parquet", split=STUDY.splits),
+        expand("results/terminal_shapes/{split}.parquet", split=STUDY.splits),

@@ -1,0 +1,42 @@
+"""Which files of the package a command's result depends on, read off its import statements."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+PACKAGE = Path(__file__).parent
+
+
+def command_sources(command: str) -> list[Path]:
+    """Every package file that ``sedfiber.commands.<command>`` imports, directly or not.
+
+    Imports inside functions count too.  Packages' ``__init__.py`` are included where they
+    contain code; the top one only maps public names and is left out, as is the dispatcher.
+    """
+    todo, seen = [PACKAGE / "commands" / f"{command}.py"], set()
+    while todo:
+        path = todo.pop()
+        if path not in seen:
+            seen.add(path)
+            todo.extend(_imported(path))
+    return sorted(seen)
+
+
+def _imported(path: Path) -> Iterator[Path]:
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "sedfiber":
+            yield from _module_files(node.module)
+            for alias in node.names:  # `from sedfiber.physics import pair_mobility`
+                yield from _module_files(f"{node.module}.{alias.name}")
+        elif isinstance(node, ast.Import):
+            for alias in node.names:
+                if alias.name.split(".")[0] == "sedfiber":
+                    yield from _module_files(alias.name)
+
+
+def _module_files(module: str) -> Iterator[Path]:
+    base = PACKAGE.joinpath(*module.split(".")[1:])
+    if base.with_suffix(".py").is_file() and base != PACKAGE:
+        yield base.with_suffix(".py")
+    if base != PACKAGE and (base / "__init__.py").is_file() and (base / "__init__.py").stat().st_size:
+        yield base / "__init__.py"

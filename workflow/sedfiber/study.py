@@ -1,0 +1,69 @@
+"""The study's configuration, validated, and what it asks for in words of the command."""
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from sedfiber.config_schema import validate
+
+SPLITS = ("train", "A", "B")
+
+
+@dataclass(frozen=True)
+class Study:
+    """What the workflow needs to know of ``config.yaml``."""
+
+    config: dict[str, Any]
+
+    splits = SPLITS
+
+    @classmethod
+    def from_config(cls, config: dict, schema: Path) -> "Study":
+        """Validate against the schema; ends the program with one line when a key is wrong."""
+        validate(config, schema)
+        study = cls(config)
+        study._require_apart()
+        return study
+
+    def B_values(self, split: str) -> list[str]:
+        """The elasto-gravitational numbers of a split, as they stand in file names."""
+        return [number_name(B) for B in self.config["study"][split]["B"]]
+
+    def runs(self, split: str) -> list[tuple[str, int]]:
+        """Every (ℬ, angle index) of a split."""
+        indices = self.config["study"][split]["angle_index"]
+        return [(B, k) for B in self.B_values(split) for k in indices]
+
+    def _require_apart(self) -> None:
+        """No trajectory may be in two splits: nothing of a test set is ever trained on."""
+        seen: dict[tuple[str, int], str] = {}
+        for split in SPLITS:
+            for B, k in self.runs(split):
+                if (B, k) in seen:
+                    sys.exit(
+                        f"config: study.{split}: B={B} with angle_index {k} is not allowed; "
+                        f"it is in {seen[B, k]} already, give each pair to one split"
+                    )
+                seen[B, k] = split
+
+    @property
+    def simulate_options(self) -> str:
+        """Options of ``sedfiber simulate`` that all runs share."""
+        return as_options(self.config["scene"] | self.config["simulation"])
+
+    @property
+    def steady_options(self) -> str:
+        """Options of ``sedfiber solve_terminal_shapes``."""
+        scene = self.config["scene"]
+        return as_options({key: scene[key] for key in ("n_beads", "hydrodynamics")})
+
+
+def number_name(value: float) -> str:
+    """A number as file names hold it: all its digits, no trailing ``.0``."""
+    return str(int(value)) if float(value).is_integer() else repr(float(value))
+
+
+def as_options(values: dict[str, Any]) -> str:
+    """``{"n_beads": 31}`` as ``--n-beads 31``."""
+    return " ".join(f"--{key.replace('_', '-')} {value}" for key, value in values.items())
