@@ -1,5 +1,6 @@
-# The whole study as a graph of files. `snakemake -j2` makes everything; each target rule
-# below makes one stage and what it needs.
+# The whole study as a graph of files. `snakemake -j2` makes everything; each of the target
+# rules simulations, dataset, autoencoders, node, forecasts and errors makes one stage and what
+# it needs, and check_simulations runs every simulation a second time.
 
 
 configfile: "config.yaml"
@@ -8,10 +9,29 @@ configfile: "config.yaml"
 include: "workflow/rules/common.smk"
 include: "workflow/rules/simulations.smk"
 include: "workflow/rules/dataset.smk"
+include: "workflow/rules/autoencoders.smk"
+include: "workflow/rules/node.smk"
+include: "workflow/rules/forecasts.smk"
+include: "workflow/rules/errors.smk"
+include: "workflow/rules/figures.smk"
+
+
+STUDY_RESULTS = [
+    rules.simulations.input,
+    rules.dataset.input,
+    rules.autoencoders.input,
+    rules.node.input,
+    rules.forecasts.input,
+    rules.errors.input,
+]
+
+
+include: "workflow/rules/provenance.smk"
 
 
 rule all:
     default_target: True
     input:
-        rules.simulations.input,
-        rules.dataset.input,
+        STUDY_RESULTS,
+        rules.tabulate_timings.output,
+        rules.write_manifest.output,

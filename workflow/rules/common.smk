@@ -1,16 +1,18 @@
 # What all rules share: the validated configuration, names of files, and the sources of a command.
 
+import json
 import shlex
+import subprocess
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(workflow.basedir) / "workflow"))
+BASE = Path(workflow.basedir)
+sys.path.insert(0, str(BASE / "workflow"))
 
 from sedfiber.source_files import command_sources
-from sedfiber.study import Study
+from sedfiber.study import Study, as_options
 
-STUDY = Study.from_config(config, Path(workflow.basedir) / "workflow/schemas/config.schema.yaml")
-LOCK = "envs/requirements.lock"
+STUDY = Study.from_config(config, BASE / "workflow/schemas/config.schema.yaml")
 
 
 wildcard_constraints:
@@ -20,12 +22,13 @@ wildcard_constraints:
     variant="none|encoder|decoder|double",
     dim=r"\d+",
     seed=r"\d+",
+    model=r"(?!lookup)\w+",
 
 
 # With --sdm conda each job's own python is meant, otherwise the one that runs this workflow.
 USES_CONDA = any("conda" in str(m).lower() for m in workflow.deployment_settings.deployment_method)
 PYTHON = "python" if USES_CONDA else sys.executable
-SOURCE_ROOT = str(Path(workflow.basedir) / "workflow")
+SOURCE_ROOT = str(BASE / "workflow")
 
 shell.prefix(
     "set -euo pipefail; "
@@ -36,10 +39,14 @@ shell.prefix(
 )
 
 
+def here(path):
+    """A file of the workflow, relative when the run's folder is the workflow's own."""
+    return str(path.relative_to(BASE) if Path.cwd() == BASE else path)
+
+
 def sources(command):
     """The lock file and every package file that a command's result depends on."""
-    files = [str(path.relative_to(workflow.basedir)) for path in command_sources(command)]
-    return [LOCK, *files]
+    return [here(path) for path in [BASE / "envs/requirements.lock", *command_sources(command)]]
 
 
 def trajectory(B, k):
@@ -48,3 +55,71 @@ def trajectory(B, k):
 
 def trajectories(split):
     return [trajectory(B, k) for B, k in STUDY.runs(split)]
+
+
+def as_json(settings):
+    """Hyper-parameters as one word of a command."""
+    return json.dumps(settings, sort_keys=True)
+
+
+def autoencoder(variant, dim, seed):
+    return f"results/models/autoencoders/{variant}_d{dim}_s{seed}"
+
+
+def autoencoder_of(model):
+    """The autoencoder's folder that a neural ODE stands on."""
+    node = NODES[model]
+    return autoencoder(node["variant"], node["latent_dim"], node["seed"])
+
+
+def model_files(folder):
+    """The files of a model on disk: weights, and the card that says what they are."""
+    return [f"{folder}/model.safetensors", f"{folder}/card.json"]
+
+
+def forecaster_words(name):
+    """Name, recipe, latent dimension and the forecasts of each test set, for the error tables."""
+    node = NODES.get(name, {"recipe": "lookup", "latent_dim": "-"})
+    files = [f"results/forecasts/{name}/{split}.parquet" for split in TEST_SETS]
+    return " ".join(["--forecaster", name, node["recipe"], str(node["latent_dim"]), *files])
+
+
+TEST_SETS = ("A", "B")
+FIGURES = ("reconstruction", "forecast_errors", "baselines", "error_distribution")
+NODES = config["node"]["models"]
+FORECASTERS = [*NODES, "lookup"]
+AUTOENCODERS = [
+    autoencoder(variant, dim, seed)
+    for variant in config["autoencoders"]["variants"]
+    for dim in config["autoencoders"]["latent_dims"]
+    for seed in config["autoencoders"]["seeds"]
+]
+
+
+def benchmarks():
+    """The benchmark file of every job of a full run, provenance excepted."""
+    splits = [
+        f"{rule}/{split}"
+        for rule in ("solve_terminal_shapes", "aggregate_dataset")
+        for split in STUDY.splits
+    ]
+    names = [
+        *(f"simulate/B{B}_k{k}" for split in STUDY.splits for B, k in STUDY.runs(split)),
+        *splits,
+        "tabulate_trajectories",
+        *(f"train_autoencoder/{Path(folder).name}" for folder in AUTOENCODERS),
+        "tabulate_reconstruction",
+        *(f"train_node/{model}" for model in NODES),
+        *(f"forecast_test_set/{model}_{split}" for model in NODES for split in TEST_SETS),
+        *(f"forecast_by_lookup/{split}" for split in TEST_SETS),
+        "tabulate_forecast_errors",
+        *(f"plot_{figure}" for figure in FIGURES),
+    ]
+    return [f"results/benchmarks/{name}.tsv" for name in names]
+
+
+def commit():
+    """The commit of the code, with a mark when files differ from it; "unknown" outside git."""
+    git = ["git", "-C", str(BASE), "describe", "--always", "--dirty", "--abbrev=40"]
+    found = subprocess.run(git, capture_output=True, text=True)
+    return found.stdout.strip() if found.returncode == 0 else "unknown"

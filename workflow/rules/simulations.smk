@@ -55,3 +55,58 @@ rule simulations:
     input:
         [trajectories(split) for split in STUDY.splits],
         rules.tabulate_trajectories.output,
+
+
+rule check_simulation:
+    input:
+        sources("check_simulation"),
+        trajectory="results/trajectories/B{B}_k{k}.parquet",
+    output:
+        "results/checks/B{B}_k{k}.json",
+    log:
+        "results/logs/check_simulation/B{B}_k{k}.log",
+    benchmark:
+        "results/benchmarks/check_simulation/B{B}_k{k}.tsv"
+    conda:
+        "../../envs/simulate.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=10,
+    params:
+        options=as_options(config["check"]),
+    message:
+        "check B={wildcards.B}, theta0={wildcards.k}π/48 against {params.options}"
+    shell:
+        "sedfiber check_simulation {input.trajectory} {params.options} -o {output} > {log} 2>&1"
+
+
+rule tabulate_checks:
+    input:
+        sources("tabulate_checks"),
+        checks=[
+            f"results/checks/B{B}_k{k}.json"
+            for split in STUDY.splits
+            for B, k in STUDY.runs(split)
+        ],
+    output:
+        "results/tables/simulation_checks.csv",
+    log:
+        "results/logs/tabulate_checks.log",
+    benchmark:
+        "results/benchmarks/tabulate_checks.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    message:
+        "tabulate the checks of all trajectories"
+    shell:
+        "sedfiber tabulate_checks {input.checks} -o {output} > {log} 2>&1"
+
+
+rule check_simulations:
+    input:
+        rules.tabulate_checks.output,

@@ -14,6 +14,20 @@ COMMANDS = {
     "solve_terminal_shapes": "steady shapes of several elasto-gravitational numbers in one table",
     "aggregate_dataset": "the trajectories of one split as one data set",
     "tabulate_trajectories": "settling time, cost and checks of every run",
+    "check_simulation": "one run again with another method and tighter tolerance",
+    "tabulate_checks": "the largest difference of every run from its check",
+    "train_autoencoder": "one autoencoder of one variant and latent dimension",
+    "tabulate_reconstruction": "reconstruction loss of every autoencoder, and of POD",
+    "train_node": "the neural ODE on a trained autoencoder, together a forecast model",
+    "forecast_test_set": "forecast every trajectory of a split from its first sample",
+    "forecast_by_lookup": "the baseline without a model: splines through the training runs",
+    "tabulate_forecast_errors": "E(t) of all forecasts of both test sets",
+    "tabulate_timings": "time of every stage, summed from the benchmark files",
+    "write_manifest": "provenance: configuration, versions and a checksum of every output",
+    "plot_reconstruction": "figure: reconstruction loss against latent dimension",
+    "plot_forecast_errors": "figure: ensemble-mean E over the settling period",
+    "plot_baselines": "figure: worst and median error beside the baseline",
+    "plot_error_distribution": "figure: largest error of every trajectory",
 }
 
 

@@ -3,10 +3,9 @@
 import argparse
 from pathlib import Path
 
-import pyarrow.parquet as pq
-
-from sedfiber.aggregation import read_all, samples_table
-from sedfiber.atomic_file import replaced_when_done, require_writable
+from sedfiber.aggregation import read_runs
+from sedfiber.atomic_file import require_writable
+from sedfiber.dataset_file import write_dataset
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,6 +18,4 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> None:
     """Read, sort and write."""
     require_writable(args.output)
-    table = samples_table(read_all(args.trajectories), args.split)
-    with replaced_when_done(args.output) as partial:
-        pq.write_table(table, partial, compression="zstd")
+    write_dataset(read_runs(args.trajectories, args.split), args.output)

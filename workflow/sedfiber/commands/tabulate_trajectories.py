@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from sedfiber.aggregation import facts_table, read_all
+from sedfiber.aggregation import facts_table, read_runs
 from sedfiber.atomic_file import require_writable
 from sedfiber.tables import write_csv
 
@@ -21,5 +21,5 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> None:
     """Read every file and write one row each."""
     require_writable(args.output)
-    parts = [facts_table(read_all([Path(p) for p in files]), label) for label, *files in args.split]
+    parts = [facts_table(read_runs([Path(p) for p in files], label)) for label, *files in args.split]
     write_csv(pd.concat(parts, ignore_index=True), args.output)

@@ -37,8 +37,8 @@ class MirrorNetwork(nn.Module):
         super().__init__()
         sizes = [len(signs_in) + n_parameters, *hidden, len(signs_out)]
         self.body = perceptron(sizes, generator)
-        self.register_buffer("signs_in", signs_in)
-        self.register_buffer("signs_out", signs_out)
+        self.register_buffer("signs_in", signs_in.clone())
+        self.register_buffer("signs_out", signs_out.clone())
 
     def rest(self, b: Tensor) -> Tensor:
         """f(0; b), shape (S, n_out): constant along a trajectory, so callers may keep it."""

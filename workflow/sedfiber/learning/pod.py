@@ -16,6 +16,9 @@ import numpy as np
 from sedfiber._typing import Array
 from sedfiber.learning.dataset import mirrored
 
+# Modes with less than this share of the leading energy are rounding and are left out.
+NEGLIGIBLE = 1e-13
+
 
 @dataclass(frozen=True)
 class ModalBasis:
@@ -61,7 +64,9 @@ def pod_basis(residuals: Array, latent_dim: int) -> ModalBasis:
 def _leading_modes(samples: Array, count: int) -> tuple[Array, Array]:
     covariance = samples.T @ samples / len(samples)
     energies, vectors = np.linalg.eigh(covariance)
-    modes = vectors[:, ::-1][:, :count].T
+    energies, vectors = energies[::-1], vectors[:, ::-1]
+    count = min(count, int((energies > NEGLIGIBLE * energies[0]).sum()))
+    modes = vectors[:, :count].T
     # eigh leaves the sign of a vector open; fix it so that a rerun gives the same basis.
     largest = modes[np.arange(len(modes)), np.abs(modes).argmax(axis=1)]
-    return modes * np.sign(largest)[:, None], energies[::-1][:count]
+    return modes * np.sign(largest)[:, None], energies[:count]

@@ -1,0 +1,140 @@
+"""Every figure: both files appear, two renders are the same bytes, bad tables are one-line errors."""
+
+import argparse
+from importlib import import_module
+from itertools import product
+from pathlib import Path
+
+import pandas as pd
+import pytest
+from sedfiber.errors import InputError
+
+MODELS = (("ours_2", "rollout", 2), ("ours_4", "rollout", 4), ("theirs", "source", 4), ("lookup", "lookup", None))
+B_VALUES = {"A": (100, 1000), "B": (150, 700)}
+RECONSTRUCTION = ("method", "variant", "latent_dim", "seed", "test_set", "loss", "loss_path_even")
+ENSEMBLE_ERRORS = ("model", "recipe", "latent_dim", "test_set", "B", "time_fraction", "E", "E_shape", "E_pos")
+BASELINES = ("test_set", "B", "model", "recipe", "latent_dim", "E_worst", "E_median", "E_ensemble_max")
+FORECAST_ERRORS = ("latent_dim", "test_set", "B", "angle_index", "E_max")
+
+
+def reconstruction() -> pd.DataFrame:
+    variants = product(("none", "encoder", "decoder", "double"), (1, 2), (0, 1), "AB")
+    rows = [("autoencoder", v, d, seed, s, 1e-3 / d * (1 + seed), 2e-3) for v, d, seed, s in variants]
+    rows += [("pod", None, d, None, s, 1e-1 / d, 2e-1) for d, s in product((1, 2), "AB")]
+    return pd.DataFrame(rows, columns=["method", "variant", "latent_dim", "seed", "test_set", "loss", "loss_path_even"])
+
+
+def ensemble_errors() -> pd.DataFrame:
+    rows = [
+        (model, recipe, d, s, B, time, 3e-5 * time, 1e-5 * time, 2e-5 * time)
+        for (model, recipe, d), s in product(MODELS, "AB")
+        for B, time in product((*B_VALUES[s], "all"), (0.1, 0.5, 1.0))
+    ]
+    return pd.DataFrame(
+        rows, columns=["model", "recipe", "latent_dim", "test_set", "B", "time_fraction", "E", "E_shape", "E_pos"]
+    )
+
+
+def baselines() -> pd.DataFrame:
+    rows = [
+        (s, B, model, recipe, d, 1e-3, 1e-4, 5e-4)
+        for (model, recipe, d), s in product(MODELS, "AB")
+        for B in B_VALUES[s]
+    ]
+    return pd.DataFrame(
+        rows, columns=["test_set", "B", "model", "recipe", "latent_dim", "E_worst", "E_median", "E_ensemble_max"]
+    )
+
+
+def forecast_errors() -> pd.DataFrame:
+    rows = [(d, s, B, k, 1e-5 * k * B) for d, s in product((2, 4), "AB") for B, k in product(B_VALUES[s], (1, 3))]
+    return pd.DataFrame(rows, columns=["latent_dim", "test_set", "B", "angle_index", "E_max"])
+
+
+# command: its table, its further options, a column it cannot do without
+FIGURES = {
+    "plot_reconstruction": (reconstruction, [], "loss"),
+    "plot_forecast_errors": (ensemble_errors, ["--model", "ours_4"], "E_pos"),
+    "plot_baselines": (baselines, [], "E_median"),
+    "plot_error_distribution": (forecast_errors, [], "angle_index"),
+}
+each_figure = pytest.mark.parametrize("command", FIGURES)
+
+
+def plot(command: str, table: pd.DataFrame, folder: Path, options: list[str] | None = None) -> tuple[bytes, bytes]:
+    """Run a command on a table; returns the bytes of its SVG and its PNG."""
+    source, svg, png = folder / "table.csv", folder / "figure.svg", folder / "figure.png"
+    table.to_csv(source, index=False)
+    module = import_module(f"sedfiber.commands.{command}")
+    parser = argparse.ArgumentParser()
+    module.add_arguments(parser)
+    given = FIGURES[command][1] if options is None else options
+    module.run(parser.parse_args([str(source), "--svg", str(svg), "--png", str(png), *given]))
+    return svg.read_bytes(), png.read_bytes()
+
+
+def refusal(command: str, table: pd.DataFrame, folder: Path, options: list[str] | None = None) -> str:
+    """The one-line error; nothing may have been written."""
+    with pytest.raises(InputError) as caught:
+        plot(command, table, folder, options)
+    assert "\n" not in str(caught.value)
+    assert [path.name for path in folder.iterdir()] == ["table.csv"]
+    return str(caught.value)
+
+
+@each_figure
+def test_two_renders_are_the_same_bytes(command, tmp_path):
+    table = FIGURES[command][0]()
+    svg, png = plot(command, table, tmp_path)
+    assert svg.startswith(b"<?xml") and b"<dc:date>" not in svg
+    assert png.startswith(b"\x89PNG") and b"Software" not in png
+    assert plot(command, table, tmp_path) == (svg, png)
+
+
+@each_figure
+def test_a_missing_column_is_named(command, tmp_path):
+    make, _, column = FIGURES[command]
+    assert f"no column {column};" in refusal(command, make().drop(columns=column), tmp_path)
+
+
+@each_figure
+def test_a_table_without_rows_is_refused(command, tmp_path):
+    assert "no rows" in refusal(command, FIGURES[command][0]().head(0), tmp_path)
+
+
+@each_figure
+def test_an_unknown_test_set_is_refused(command, tmp_path):
+    assert "test_set: 'C'" in refusal(command, FIGURES[command][0]().assign(test_set="C"), tmp_path)
+
+
+def test_text_in_a_column_of_numbers_is_refused(tmp_path):
+    assert "column loss must hold numbers" in refusal(
+        "plot_reconstruction", reconstruction().assign(loss="x"), tmp_path
+    )
+
+
+def test_an_unknown_variant_recipe_or_model_is_refused(tmp_path):
+    assert "triple" in refusal("plot_reconstruction", reconstruction().assign(variant="triple"), tmp_path)
+    assert "'guess'" in refusal("plot_baselines", baselines().assign(recipe="guess"), tmp_path)
+    message = refusal("plot_forecast_errors", ensemble_errors(), tmp_path, ["--model", "nobody"])
+    assert "'nobody'" in message and "ours_2" in message
+
+
+def test_user_settings_do_not_reach_the_figures(tmp_path, monkeypatch):
+    import matplotlib
+
+    table = baselines()
+    plain = plot("plot_baselines", table, tmp_path)
+    monkeypatch.setitem(matplotlib.rcParams, "axes.facecolor", "red")
+    assert plot("plot_baselines", table, tmp_path) == plain
+
+
+def test_one_trajectory_is_enough(tmp_path):
+    single = forecast_errors().query("latent_dim == 2 and B in (100, 150) and angle_index == 1")
+    assert plot("plot_error_distribution", single.assign(E_max=1e-4), tmp_path)
+    assert plot("plot_forecast_errors", ensemble_errors().query("B in (100, 'all')"), tmp_path)
+
+
+def test_a_panel_without_any_error_is_refused(tmp_path):
+    only_A = forecast_errors().query("test_set == 'A'")
+    assert "latent_dim 2, test_set B" in refusal("plot_error_distribution", only_A, tmp_path)

@@ -1,0 +1,166 @@
+"""Rotne–Prager–Yamakawa mobility against an outside package, its limits and its symmetries."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+from problems import bent_chain, crumpled_chain, straight_chain, taylor_slope
+from pygrpy.grpy_tensors import muTT
+from reference import rpy
+from sedfiber.physics.pair_mobility import coefficients, smallest_gap
+from sedfiber.physics.rpy import RotnePragerYamakawa
+
+PLAIN, OVERLAP = RotnePragerYamakawa(overlap=False), RotnePragerYamakawa(overlap=True)
+
+
+def cloud(seed, n_beads, size, dim=3):
+    """Beads thrown into a box, whatever they overlap."""
+    return np.random.default_rng(seed).uniform(-size, size, (n_beads, dim))
+
+
+def pygrpy_mobility(x):
+    """pygrpy's translational blocks for unit spheres, in our unit 1/(6πμa) (its μ is 1)."""
+    blocks = 6 * np.pi * muTT(x, np.ones(len(x)))
+    return blocks.transpose(0, 2, 1, 3).reshape(x.size, x.size)
+
+
+def distances(x):
+    """All pair distances."""
+    return np.linalg.norm(x[:, None] - x[None], axis=-1)[np.triu_indices(len(x), 1)]
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("size", [1.5, 4.0, 30.0], ids=["overlapping", "mixed", "dilute"])
+def test_overlap_form_equals_pygrpy(seed, size):
+    """Every entry agrees with pygrpy (Zuk et al. 2014) to 1e-12, overlapping pairs included."""
+    x = cloud(seed, 12, size)
+    assert_allclose(OVERLAP.matrix(x), pygrpy_mobility(x), rtol=0, atol=1e-12)
+
+
+def test_clouds_hold_pairs_on_both_sides_of_touching():
+    """The comparison above covers overlapping and separate pairs."""
+    r = np.concatenate([distances(cloud(seed, 12, 4.0)) for seed in range(5)])
+    assert (r < 2).sum() > 10
+    assert (r > 2).sum() > 100
+
+
+@pytest.mark.parametrize("mobility", [PLAIN, OVERLAP], ids=["plain", "overlap"])
+def test_touching_pair_equals_pygrpy(mobility):
+    """At a distance of exactly 2a both forms meet, and agree with pygrpy."""
+    x = np.array([[0.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
+    assert_allclose(mobility.matrix(x), pygrpy_mobility(x), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_plain_form_equals_overlap_form_for_separate_beads(seed):
+    """Without overlaps the two forms are one, bit for bit."""
+    x = 4.2 * np.array(list(np.ndindex(3, 3, 2)), dtype=float) + cloud(seed, 18, 1.0)
+    assert distances(x).min() >= 2
+    assert np.array_equal(PLAIN.matrix(x), OVERLAP.matrix(x))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("overlap", [False, True])
+def test_plain_numpy_reference(seed, overlap):
+    """Both forms equal the formula of DESIGN §1 written out in NumPy, overlaps included."""
+    x = crumpled_chain(seed)
+    assert distances(x).min() < 2
+    assert_allclose(RotnePragerYamakawa(overlap).matrix(x), rpy(x, overlap), rtol=0, atol=1e-13)
+
+
+@pytest.mark.parametrize("mobility", [PLAIN, OVERLAP], ids=["plain", "overlap"])
+def test_planar_matrix_is_a_block_of_the_spatial_one(mobility):
+    """For beads in a plane the (x, y) entries in volume are the planar matrix; x–z and y–z vanish."""
+    flat = crumpled_chain(3, dim=2)
+    spatial = mobility.matrix(np.column_stack([flat, np.zeros(len(flat))])).reshape(len(flat), 3, len(flat), 3)
+    planar = mobility.matrix(flat).reshape(len(flat), 2, len(flat), 2)
+    assert_allclose(planar, spatial[:, :2, :, :2], rtol=0, atol=1e-15)
+    assert not spatial[:, 2, :, :2].any()
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("mobility", [PLAIN, OVERLAP], ids=["plain", "overlap"])
+def test_velocity_is_matrix_times_force(mobility, dim):
+    """The pair sum that never forms the matrix gives the matrix times the forces."""
+    x = crumpled_chain(5, dim=dim)
+    force = np.random.default_rng(6).normal(size=x.shape)
+    assert_allclose(mobility.velocity(x, force).ravel(), mobility.matrix(x) @ force.ravel(), rtol=0, atol=1e-13)
+
+
+@given(seed=st.integers(0, 10**6), size=st.floats(0.5, 6.0))
+def test_overlap_form_is_symmetric_positive_definite(seed, size):
+    """M = Mᵀ > 0 for any cloud of beads, however much they overlap (Rotne & Prager 1969)."""
+    m = OVERLAP.matrix(cloud(seed, 10, size))
+    assert np.array_equal(m, m.T)
+    assert np.linalg.eigvalsh(m)[0] > 0
+
+
+@pytest.mark.parametrize(("distance", "positive"), [(2.0, True), (1.14, True), (1.12, False), (0.8, False)])
+def test_plain_form_loses_positive_definiteness_for_close_pairs(distance, positive):
+    """Two beads pulled apart move against the pull once ``c1 + c2 > 1``, below about 1.13 a."""
+    x = np.array([[0.0, 0.0, 0.0], [distance, 0.0, 0.0]])
+    assert (np.linalg.eigvalsh(PLAIN.matrix(x))[0] > 0) is np.bool_(positive)
+    assert np.linalg.eigvalsh(OVERLAP.matrix(x))[0] > 0
+
+
+@pytest.mark.parametrize(("axis", "speed"), [(0, 1.625), (1, 1.4375), (2, 1.4375)])
+def test_touching_pair_speeds(axis, speed):
+    """Two touching beads pushed with one unit each: 13/8 along their line, 23/16 across it."""
+    x = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]])
+    force = np.zeros((2, 3))
+    force[:, axis] = 1.0
+    assert_allclose(PLAIN.velocity(x, force), speed * force, rtol=1e-15)
+
+
+@pytest.mark.parametrize(("axis", "speed"), [(0, 5.253489), (1, 3.414123)])
+def test_straight_chain_mean_speeds(axis, speed):
+    """Mean bead speed of 31 touching beads under one unit of force each, from issue 2 §4."""
+    force = np.zeros((31, 3))
+    force[:, axis] = 1.0
+    assert_allclose(PLAIN.velocity(straight_chain(31), force)[:, axis].mean(), speed, atol=5e-7)
+
+
+@pytest.mark.parametrize("overlap", [False, True])
+@pytest.mark.parametrize("r", [0.3, 1.0, 1.7, 2.3, 5.0, 60.0])
+def test_derivatives_of_the_pair_coefficients(r, overlap):
+    """``c1'`` and ``c2'`` equal central differences of ``c1`` and ``c2`` on both branches."""
+    h = 1e-5 * r
+    ahead, behind = (np.array(coefficients(r + s * h, overlap)[:2]) for s in (1, -1))
+    assert_allclose(coefficients(r, overlap)[2:], (ahead - behind) / (2 * h), rtol=1e-8)
+
+
+def test_overlap_form_joins_smoothly():
+    """Value and slope of both coefficients are continuous at touching (Yamakawa 1970)."""
+    assert_allclose(coefficients(2.0 - 1e-13, True), coefficients(2.0, True), rtol=0, atol=1e-12)
+
+
+@pytest.mark.parametrize("dim", [2, 3])
+@pytest.mark.parametrize("mobility", [PLAIN, OVERLAP], ids=["plain", "overlap"])
+@pytest.mark.parametrize("chain", [bent_chain, crumpled_chain])
+def test_mobility_jacobian_taylor(mobility, dim, chain):
+    """At fixed forces the error of ``M(x + εv)F ≈ MF + ε ∂(MF)/∂x v`` falls as ε²."""
+    x, rng = chain(7, dim=dim), np.random.default_rng(8)
+    force, direction = rng.normal(size=x.shape), rng.normal(size=x.size)
+    jac = mobility.jacobian(x, force, np.zeros((x.size, x.size)))
+
+    def velocity(y):
+        return mobility.velocity(y.reshape(x.shape), force).ravel()
+
+    slope = taylor_slope(velocity, jac, x.ravel(), direction, [1e-3, 3e-4, 1e-4, 3e-5])
+    assert slope == pytest.approx(2, abs=0.1)
+
+
+def test_jacobian_adds_the_matrix_times_the_force_jacobian():
+    """``∂(MF)/∂x = M ∂F/∂x + (∂M/∂x) F``: the two terms separately."""
+    x, rng = bent_chain(9, dim=2), np.random.default_rng(10)
+    force, force_jac = rng.normal(size=x.shape), rng.normal(size=(x.size, x.size))
+    both = PLAIN.jacobian(x, force, force_jac)
+    gradient_alone = PLAIN.jacobian(x, force, np.zeros_like(force_jac))
+    assert_allclose(both - gradient_alone, PLAIN.matrix(x) @ force_jac, rtol=0, atol=1e-12)
+
+
+def test_smallest_gap_leaves_neighbours_out():
+    """A hairpin of touching beads: neighbours touch, the two arms are 3a apart, so 1a is free."""
+    x = np.array([[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [2.0, 3.0], [0.0, 3.0]])
+    assert smallest_gap(x) == pytest.approx(1.0)

@@ -1,0 +1,34 @@
+# What the forecasts are worth, as tables.
+
+
+rule tabulate_forecast_errors:
+    input:
+        sources("tabulate_forecast_errors"),
+        truth=expand("results/dataset/{split}.parquet", split=TEST_SETS),
+        shapes=expand("results/terminal_shapes/{split}.parquet", split=TEST_SETS),
+        forecasts=rules.forecasts.input,
+    output:
+        forecast_errors="results/tables/forecast_errors.csv",
+        source_errors="results/tables/forecast_errors_source_recipe.csv",
+        lookup_errors="results/tables/forecast_errors_lookup.csv",
+        ensemble_errors="results/tables/ensemble_errors.csv",
+        baselines="results/tables/baselines.csv",
+    log:
+        "results/logs/tabulate_forecast_errors.log",
+    benchmark:
+        "results/benchmarks/tabulate_forecast_errors.tsv"
+    conda:
+        "../../envs/learning.yaml"
+    threads: 1
+    resources:
+        mem_mb=6000,
+        runtime=10,
+    params:
+        forecasters=" ".join(forecaster_words(name) for name in FORECASTERS),
+    message:
+        "tabulate the errors of all forecasts"
+    shell:
+        "sedfiber tabulate_forecast_errors --truth {input.truth} --shapes {input.shapes}"
+        " {params.forecasters} --forecast-errors {output.forecast_errors}"
+        " --source-errors {output.source_errors} --lookup-errors {output.lookup_errors}"
+        " --ensemble-errors {output.ensemble_errors} --baselines {output.baselines} > {log} 2>&1"

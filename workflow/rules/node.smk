@@ -1,0 +1,60 @@
+# Neural ODEs on trained autoencoders; each output folder holds all that a forecast needs.
+
+
+rule train_node:
+    input:
+        sources("train_node"),
+        dataset="results/dataset/train.parquet",
+        shapes="results/terminal_shapes/train.parquet",
+        autoencoder=lambda wildcards: model_files(autoencoder_of(wildcards.model)),
+    output:
+        model_files("results/models/node/{model}"),
+    log:
+        "results/logs/train_node/{model}.log",
+    benchmark:
+        "results/benchmarks/train_node/{model}.tsv"
+    conda:
+        "../../envs/learning.yaml"
+    threads: 1
+    resources:
+        mem_mb=3000,
+        runtime=60,
+    params:
+        autoencoder=lambda wildcards: autoencoder_of(wildcards.model),
+        recipe=lambda wildcards: NODES[wildcards.model]["recipe"],
+        seed=lambda wildcards: NODES[wildcards.model]["seed"],
+        settings=lambda wildcards: as_json(config["node"][NODES[wildcards.model]["recipe"]]),
+        folder=lambda wildcards, output: Path(output[0]).parent,
+    message:
+        "train neural ODE {wildcards.model}"
+    shell:
+        "sedfiber train_node --dataset {input.dataset} --terminal-shapes {input.shapes}"
+        " --autoencoder {params.autoencoder} --recipe {params.recipe} --seed {params.seed}"
+        " --settings {params.settings:q} -o {params.folder} 2>&1 | tee {log}"
+
+
+rule choose_forecast_model:
+    input:
+        model_files(f"results/models/node/{config['node']['forecast_model']}"),
+    output:
+        model_files("results/models/forecast"),
+    log:
+        "results/logs/choose_forecast_model.log",
+    benchmark:
+        "results/benchmarks/choose_forecast_model.tsv"
+    conda:
+        "../../envs/learning.yaml"
+    threads: 1
+    resources:
+        mem_mb=100,
+        runtime=1,
+    message:
+        "copy {input} to where `sedfiber forecast` looks"
+    shell:
+        "cp {input} results/models/forecast/ > {log} 2>&1"
+
+
+rule node:
+    input:
+        [model_files(f"results/models/node/{model}") for model in NODES],
+        rules.choose_forecast_model.output,

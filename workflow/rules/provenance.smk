@@ -1,0 +1,59 @@
+# How long it took, what was made from what, and what came out.
+
+
+rule tabulate_timings:
+    input:
+        sources("tabulate_timings"),
+        results=STUDY_RESULTS,
+    output:
+        "results/tables/timings.csv",
+    log:
+        "results/logs/tabulate_timings.log",
+    benchmark:
+        "results/benchmarks/tabulate_timings.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        benchmarks=benchmarks(),
+    message:
+        "sum the benchmark files by stage"
+    shell:
+        "sedfiber tabulate_timings {params.benchmarks} -o {output} > {log} 2>&1"
+
+
+rule write_manifest:
+    input:
+        sources("write_manifest"),
+        results=STUDY_RESULTS,
+        timings=rules.tabulate_timings.output,
+        lock=here(BASE / "envs/requirements.lock"),
+    output:
+        manifest="results/manifest.json",
+        graph="results/rule_graph.dot",
+    log:
+        "results/logs/write_manifest.log",
+    benchmark:
+        "results/benchmarks/write_manifest.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        config=as_json(config),
+        commit=commit(),
+        snakefile=here(BASE / "Snakefile"),
+        configfiles=[str(path) for path in workflow.configfiles],
+    message:
+        "record where every result comes from"
+    shell:
+        "{PYTHON} -m snakemake --snakefile {params.snakefile} --configfile {params.configfiles}"
+        " --rulegraph dot > {output.graph} 2> {log} && "
+        "sedfiber write_manifest --config {params.config:q} --commit {params.commit} --lock {input.lock}"
+        " --rule-graph {output.graph} --outputs {input.results} {input.timings}"
+        " -o {output.manifest} >> {log} 2>&1"

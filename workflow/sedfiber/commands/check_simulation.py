@@ -1,0 +1,54 @@
+"""``sedfiber check_simulation``: one run again with another method and tighter tolerance."""
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+
+from sedfiber.atomic_file import require_writable, write_text
+from sedfiber.errors import NumericalError
+from sedfiber.physics.integrators import INTEGRATORS
+from sedfiber.scene import Scene
+from sedfiber.simulation import Numerics, simulate
+from sedfiber.trajectory import Trajectory
+from sedfiber.trajectory_file import read_trajectory
+from sedfiber.validation import positive_number
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The run, the second method, and how far the two may differ."""
+    parser.add_argument("trajectory", type=Path, help="trajectory file to check")
+    parser.add_argument("--integrator", default="Radau", help=f"{', '.join(INTEGRATORS)} (Radau)")
+    parser.add_argument("--tolerance", default=1e-10, help="relative and absolute tolerance (1e-10)")
+    parser.add_argument("--bound", default=1e-4, help="largest difference allowed, over L (1e-4)")
+    parser.add_argument("-o", "--output", type=Path, required=True, help="JSON file to write")
+
+
+def run(args: argparse.Namespace) -> None:
+    """Simulate again to the same end, compare at every sample, write or fail."""
+    require_writable(args.output)
+    bound, tolerance = positive_number("bound", args.bound), positive_number("tolerance", args.tolerance)
+    first = read_trajectory(args.trajectory)
+    values = {key: first.metadata["scene"][key] for key in Scene.__dataclass_fields__}
+    numerics = Numerics(args.integrator, tolerance, tolerance, first.metadata["numerics"]["interval"])
+    second = simulate(Scene(**values), numerics, t_end=float(first.t[-1]))
+    difference = largest_difference(first, second)
+    if not difference <= bound:
+        raise NumericalError(f"runs differ by {difference:.3g} L, more than {bound:g} L; try a smaller rtol")
+    facts = {
+        "B": first.metadata["B"],
+        "angle_index": first.metadata["angle_index"],
+        "integrator": args.integrator,
+        "tolerance": tolerance,
+        "difference": difference,
+        "bound": bound,
+    }
+    write_text(args.output, json.dumps(facts, sort_keys=True) + "\n")
+
+
+def largest_difference(first: Trajectory, second: Trajectory) -> float:
+    """Largest root-mean-square bead distance at any sample, over L; the fall included."""
+    offset = first.positions - second.positions
+    length = 2.0 * first.n_beads
+    return float(np.sqrt((offset**2).sum(axis=2).mean(axis=1)).max() / length)

@@ -1,0 +1,57 @@
+"""Worst and median forecast error of every forecaster at each ℬ, as a dot plot."""
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from sedfiber.figures.forecasters import Forecaster, forecasters
+from sedfiber.figures.style import B_SYMBOL, BLACK, GREY, PAGE_WIDTH, SET_TITLES, letter_panel, place_legend
+from sedfiber.figures.table_input import in_set, select_columns
+
+BARS = {"A": 5e-4, "B": 5e-3}  # what this study asks of the worst trajectory at d = 4
+BAR_LABEL = r"bar for the worst at d = 4, $5\times10^{-4}$ on A, $5\times10^{-3}$ on B"
+GROUP_HEIGHT = 0.75  # share of the distance between two ℬ that is taken by the forecasters' rows
+
+
+def draw_baselines(table: pd.DataFrame) -> Figure:
+    """Two panels, sets A and B: one group of rows for each ℬ, filled dot worst, open dot median."""
+    rows = select_columns(table, ("test_set", "model", "recipe"), ("B", "latent_dim", "E_worst", "E_median"))
+    shown = forecasters(rows)
+    figure = Figure(figsize=(PAGE_WIDTH, 5.6))
+    panels = figure.subplots(1, 2, sharex=True)
+    for axes, letter, (test_set, title) in zip(panels, "ab", SET_TITLES.items(), strict=True):
+        letter_panel(axes, letter, title)
+        _draw_set(axes, in_set(rows, test_set), shown)
+        axes.axvline(BARS[test_set], color=BLACK, linestyle=(0, (2, 2)), linewidth=1.0, label=BAR_LABEL)
+        axes.set(xscale="log", xlabel="largest E(t) of a trajectory")
+    panels[0].set_ylabel(f"elasto-gravitational number {B_SYMBOL}")
+    _add_dot_keys(panels[1])
+    place_legend(figure, *panels, columns=3)
+    return figure
+
+
+def _draw_set(axes: Axes, rows: pd.DataFrame, shown: list[Forecaster]) -> None:
+    values = sorted(rows["B"].unique())
+    for place in range(0, len(values), 2):
+        axes.axhspan(place - 0.5, place + 0.5, color="#f2f2f2", linewidth=0.0, zorder=0)
+    for index, forecaster in enumerate(shown):
+        shift = GROUP_HEIGHT * (0.5 - (index + 0.5) / len(shown))  # the first on top
+        own = rows[rows["model"] == forecaster.model]
+        _draw_forecaster(axes, own, own["B"].map(values.index) + shift, forecaster)
+    axes.set(yticks=range(len(values)), yticklabels=[f"{B:g}" for B in values], ylim=(-0.5, len(values) - 0.5))
+    axes.grid(False, axis="y")
+    axes.tick_params(axis="y", length=0)
+
+
+def _draw_forecaster(axes: Axes, rows: pd.DataFrame, places: pd.Series, forecaster: Forecaster) -> None:
+    look = {"color": forecaster.color, "marker": forecaster.marker, "linestyle": "none", "markersize": 4.0}
+    axes.hlines(places, rows["E_median"], rows["E_worst"], color=forecaster.color, linewidth=0.8)
+    axes.plot(rows["E_worst"], places, label=forecaster.label, **look)
+    axes.plot(rows["E_median"], places, markerfacecolor="white", **look)
+
+
+def _add_dot_keys(axes: Axes) -> None:
+    """Legend entries that say what filled and open dots are."""
+    for label, fill in (("worst trajectory", GREY), ("median trajectory", "white")):
+        axes.add_line(Line2D([], [], color=GREY, marker="o", linestyle="none", markerfacecolor=fill, label=label))

@@ -1,0 +1,61 @@
+"""How each forecaster is named and marked: the same in every figure that compares them."""
+
+import math
+from collections import Counter
+from typing import NamedTuple
+
+import pandas as pd
+
+from sedfiber.errors import InputError
+from sedfiber.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
+from sedfiber.validation import one_of
+
+NAMES = {"rollout": "this study", "source": "source's recipe", "lookup": "lookup, no model"}
+
+# colour and marker of each recipe's models, in order of d
+LOOKS = {
+    "rollout": ((SKY, "o"), (BLUE, "s"), (BLACK, "D"), (GREEN, "P")),
+    "source": ((VERMILION, "^"), (PURPLE, ">")),
+    "lookup": ((ORANGE, "v"),),
+}
+
+
+class Forecaster(NamedTuple):
+    """One entry of a legend; ``model`` is its name in the tables."""
+
+    model: str
+    recipe: str
+    label: str
+    color: str
+    marker: str
+
+
+def forecasters(table: pd.DataFrame) -> list[Forecaster]:
+    """Every model of a table with columns model, recipe and latent_dim: ours by d, the source's, the lookup.
+
+    Raises InputError for an unknown recipe, or more models of one recipe than can be told apart.
+    """
+    rows = [(recipe, d, model) for model, recipe, d in _models(table)]
+    rows.sort(key=lambda row: (list(NAMES).index(row[0]), row[1], row[2]))
+    used: Counter[str] = Counter()
+    found = []
+    for recipe, latent_dim, model in rows:
+        color, marker = _look(recipe, used[recipe])
+        used[recipe] += 1
+        found.append(Forecaster(model, recipe, _label(recipe, latent_dim), color, marker))
+    return found
+
+
+def _models(table: pd.DataFrame) -> list[tuple[str, str, float]]:
+    columns = table[["model", "recipe", "latent_dim"]].drop_duplicates()
+    return [(model, one_of("recipe", recipe, NAMES), d) for model, recipe, d in columns.itertuples(index=False)]
+
+
+def _look(recipe: str, index: int) -> tuple[str, str]:
+    if index >= len(LOOKS[recipe]):
+        raise InputError(f"input: recipe {recipe} has more than {len(LOOKS[recipe])} models, too many to tell apart")
+    return LOOKS[recipe][index]
+
+
+def _label(recipe: str, latent_dim: float) -> str:
+    return NAMES[recipe] if math.isnan(latent_dim) else f"{NAMES[recipe]}, d = {latent_dim:g}"

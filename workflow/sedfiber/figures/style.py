@@ -1,0 +1,104 @@
+"""One look for every figure, and how a figure becomes files.
+
+Figures are built from ``matplotlib.figure.Figure`` without pyplot, so there is no window, no
+global state and no display. The same table gives the same bytes: SVG identifiers are hashed with
+a fixed salt, text is drawn as paths of the font that matplotlib ships, and neither file holds a
+date or the name of a program.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.style import context
+from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
+
+from sedfiber.atomic_file import replaced_when_done
+
+COLUMN_WIDTH = 3.4  # inches; one column of a two-column page
+PAGE_WIDTH = 7.0  # inches; both columns
+
+# Okabe and Ito's colours, told apart with any kind of colour vision
+BLACK = "#000000"
+ORANGE = "#e69f00"
+SKY = "#56b4e9"
+GREEN = "#009e73"
+BLUE = "#0072b2"
+VERMILION = "#d55e00"
+PURPLE = "#cc79a7"
+GREY = "#767676"
+
+SEQUENTIAL = ListedColormap(colormaps["viridis"](np.linspace(0.0, 0.9, 256)), "sequential")  # no pale end
+
+B_SYMBOL = r"$\mathcal{B}$"
+SET_TITLES = {"A": f"test set A: trained {B_SYMBOL}, new θ₀", "B": f"test set B: new {B_SYMBOL}, new θ₀"}
+
+RC_PARAMS = {
+    "font.family": "DejaVu Sans",
+    "font.size": 8.0,
+    "axes.titlesize": 8.0,
+    "axes.labelsize": 8.0,
+    "xtick.labelsize": 7.5,
+    "ytick.labelsize": 7.5,
+    "legend.fontsize": 7.5,
+    "legend.frameon": False,
+    "mathtext.fontset": "dejavusans",
+    "axes.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "axes.grid": True,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.5,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4.5,
+    "figure.constrained_layout.use": True,
+    "savefig.dpi": 200,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "sedfiber",
+}
+
+
+def save_figure(draw: Callable[[], Figure], svg: Path, png: Path) -> None:
+    """Draw in this style alone, whatever the user's own settings, and write both files."""
+    with context(["default", RC_PARAMS]):
+        figure = draw()
+        with replaced_when_done(svg) as partial:
+            figure.savefig(partial, format="svg", metadata={"Date": None, "Creator": None})
+        with replaced_when_done(png) as partial:
+            figure.savefig(partial, format="png", metadata={"Software": None})
+
+
+def letter_panel(axes: Axes, letter: str, title: str) -> None:
+    """Title a panel as “(a) …”, flush left."""
+    axes.set_title(f"({letter}) {title}", loc="left")
+
+
+def draw_level(axes: Axes, value: float, color: str, dashes: tuple, label: str) -> None:
+    """A dashed horizontal line: a bound or a bar."""
+    axes.axhline(value, color=color, linestyle=dashes, linewidth=1.0, label=label, zorder=1.5)
+
+
+def set_B_ticks(axis: Axis) -> None:
+    """Ticks of a logarithmic ℬ axis as plain numbers: 100, 200, 500, 1000 …"""
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(FormatStrFormatter("%g"))
+    axis.set_minor_locator(NullLocator())
+
+
+def place_legend(figure: Figure, *panels: Axes, columns: int) -> None:
+    """One legend below all panels, each label once, where it can cover no data."""
+    entries = {}
+    for axes in panels:
+        handles, labels = axes.get_legend_handles_labels()
+        entries |= dict(zip(labels, handles, strict=True))
+    figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
+
+
+def scientific(value: float) -> str:
+    """2.13e-4 as 2.1×10⁻⁴, in mathtext."""
+    mantissa, exponent = f"{value:.1e}".split("e")
+    return rf"${mantissa}\times10^{{{int(exponent)}}}$"

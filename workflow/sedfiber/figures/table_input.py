@@ -1,0 +1,64 @@
+"""The part of a table that a figure needs, checked, and the options all figures share."""
+
+import argparse
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from sedfiber.atomic_file import require_writable
+from sedfiber.errors import InputError
+from sedfiber.figures.style import save_figure
+from sedfiber.tables import read_csv
+
+TEST_SETS = ("A", "B")
+
+
+def add_figure_arguments(parser: argparse.ArgumentParser, table: str) -> None:
+    """The table to draw and the two files to write."""
+    parser.add_argument("table", type=Path, help=f"CSV table to draw ({table})")
+    parser.add_argument("--svg", type=Path, required=True, help="SVG file to write")
+    parser.add_argument("--png", type=Path, required=True, help="PNG file to write")
+
+
+def write_figure(args: argparse.Namespace, draw: Callable[[pd.DataFrame], Figure]) -> None:
+    """Refuse unusable outputs, read the table, draw it, write both files."""
+    for path in (args.svg, args.png):
+        require_writable(path)
+    table = read_csv(args.table)
+    save_figure(lambda: draw(table), args.svg, args.png)
+
+
+def select_columns(table: pd.DataFrame, text: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
+    """The named columns; empty text is ``""``, empty numbers are NaN.
+
+    Raises InputError when a column is missing, holds text for numbers, or there is no row.
+    """
+    _require_columns(table, (*text, *numbers))
+    words = {name: table[name].fillna("").astype(str) for name in text}
+    values = {name: _as_numbers(table[name]) for name in numbers}
+    return pd.DataFrame(words | values)
+
+
+def in_set(table: pd.DataFrame, test_set: str) -> pd.DataFrame:
+    """The rows of one test set."""
+    return table[table["test_set"] == test_set]
+
+
+def _require_columns(table: pd.DataFrame, names: Sequence[str]) -> None:
+    missing = [name for name in names if name not in table]
+    if missing:
+        raise InputError(f"input: the table has no column {', '.join(missing)}; it has {', '.join(table.columns)}")
+    if table.empty:
+        raise InputError("input: the table has no rows")
+    strangers = sorted(set(table["test_set"].astype(str)) - set(TEST_SETS))
+    if strangers:
+        raise InputError(f"input: test_set: {strangers[0]!r} is not allowed; give one of {', '.join(TEST_SETS)}")
+
+
+def _as_numbers(column: pd.Series) -> pd.Series:
+    try:
+        return pd.to_numeric(column).astype(float)
+    except (ValueError, TypeError) as error:
+        raise InputError(f"input: column {column.name} must hold numbers ({error})") from None

@@ -1,0 +1,122 @@
+"""Forecasts of whole trajectories by a trained model.
+
+    h(0) = E(X̌(0); ℬ),   dh/dt = F_h(h; ℬ) − A h,   dc/dt = F_c(h; ℬ)
+    X(t) = c(t) + X̄_term(ℬ) + (L/2) D(h(t); ℬ)
+
+integrated by torchdiffeq's dopri5 in float64. The terminal shape and the terminal velocity
+come from the steady solve at that ℬ.
+"""
+
+import copy
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+from torchdiffeq import odeint
+
+from sedfiber._typing import Array, History, Positions, Times
+from sedfiber.errors import InputError, NumericalError
+from sedfiber.learning.autoencoder import Autoencoder
+from sedfiber.learning.dataset import Trajectory
+from sedfiber.learning.neural_ode import N_CENTRE, NeuralOde
+from sedfiber.learning.scaling import Scales
+
+
+@dataclass(frozen=True)
+class Start:
+    """What a forecast starts from: ``initial`` positions (N, 3), and the steady state at ℬ.
+
+    ``terminal`` (N, 3) is relative to the centre bead, ``terminal_velocity`` has shape (3,).
+    """
+
+    B: float
+    initial: Positions
+    terminal: Positions
+    terminal_velocity: Array
+
+    @classmethod
+    def of(cls, trajectory: Trajectory) -> "Start":
+        """The start of a stored trajectory: its first sample and its steady state."""
+        return cls(
+            trajectory.B, trajectory.positions[0], trajectory.terminal, trajectory.terminal_velocity
+        )
+
+
+class ForecastModel:
+    """Autoencoder and neural ODE, for inference in float64."""
+
+    def __init__(self, autoencoder: Autoencoder, node: NeuralOde, rtol: float, atol: float) -> None:
+        self.autoencoder, self.node, self.rtol, self.atol = autoencoder, node, rtol, atol
+        self._encoder = copy.deepcopy(autoencoder).double().requires_grad_(False)
+        self._node = copy.deepcopy(node).double().requires_grad_(False)
+
+    @property
+    def scales(self) -> Scales:
+        """Scales of the training data; `Scales.covers` tells an extrapolation."""
+        return self.autoencoder.scales
+
+    def forecast(
+        self, B: float, initial: Positions, terminal: Positions, terminal_velocity: Array, t: Times
+    ) -> History:
+        """Positions (T, N, 3) at times ``t`` (T,); see `forecast_many`."""
+        return self.forecast_many([Start(B, initial, terminal, terminal_velocity)], t)[0]
+
+    def forecast_many(self, starts: Sequence[Start], t: Times) -> Array:
+        """Positions (S, T, N, 3) at times ``t`` (T,), ascending from ``t[0]`` ≥ 0, of S starts.
+
+        All starts share the step size of dopri5, so that a forecast depends on its
+        companions within the tolerances. The initial positions are those at time 0.
+
+        Raises InputError for shapes or times that do not fit the model, NumericalError
+        when the integration fails.
+        """
+        self._check(starts, t)
+        b = torch.tensor([[float(self.scales.log_B(start.B))] for start in starts], dtype=torch.float64)
+        h, drift = self._integrate(self._latent(starts, b), b, t)
+        residual = self._encoder.decode(h.flatten(0, 1), b.expand(len(t), -1, -1).flatten(0, 1))
+        residual = residual.unflatten(0, h.shape[:2]).transpose(0, 1).numpy()
+        drift = nn.functional.pad(drift, (0, 3 - N_CENTRE)).transpose(0, 1).numpy()
+        return np.stack([
+            self._assemble(*parts, t) for parts in zip(starts, residual, drift, strict=True)
+        ])
+
+    def _latent(self, starts: Sequence[Start], b: Tensor) -> Tensor:
+        residual = np.stack([self.scales.residual(start.initial, start.terminal) for start in starts])
+        return self._encoder.encode(torch.tensor(residual), b)
+
+    def _integrate(self, h: Tensor, b: Tensor, t: Times) -> tuple[Tensor, Tensor]:
+        """h (T, S, d) and the drift c − c(0) − U_term t, (T, S, 2)."""
+        d, rest = h.shape[1], self._node.rest(b)
+        state = nn.functional.pad(h, (0, N_CENTRE))
+        skipped = 0 if t[0] == 0 else 1
+        times = torch.tensor(np.concatenate([np.zeros(skipped), t]))
+        if len(times) == 1:
+            return state[None, :, :d], state[None, :, d:]
+        try:
+            states = odeint(
+                lambda _, y: self._node(y[:, :d], b, rest), state, times,
+                rtol=self.rtol, atol=self.atol, method="dopri5",
+            )[skipped:]
+        except AssertionError as error:
+            raise NumericalError(f"the forecast's integration failed: {error}") from error
+        if not torch.isfinite(states).all():
+            raise NumericalError("the forecast left the numbers; is B far outside the training range?")
+        return states[..., :d], states[..., d:]
+
+    def _assemble(self, start: Start, residual: Array, drift: Array, t: Times) -> History:
+        scales = self.scales
+        origin = start.initial[scales.n_beads // 2]
+        centre = origin + scales.half_length * drift + t[:, None] * start.terminal_velocity
+        return centre[:, None] + scales.shape(residual, start.terminal)
+
+    def _check(self, starts: Sequence[Start], t: Times) -> None:
+        n_beads = self.scales.n_beads
+        for start in starts:
+            if start.initial.shape != (n_beads, 3) or start.terminal.shape != (n_beads, 3):
+                raise InputError(
+                    f"the model was trained on {n_beads} beads, not on {len(start.initial)}"
+                )
+        if len(t) == 0 or t[0] < 0 or not (np.diff(t) > 0).all():
+            raise InputError("forecast times must ascend from zero or later")

@@ -1,0 +1,157 @@
+"""Models on disk: a folder with ``model.safetensors`` (weights) and ``card.json`` (all else).
+
+Each file is written under a temporary name and renamed, the card last; the card holds the
+checksum of the weights, so that a half-finished write is never taken for a model. The
+bytes depend on the model only.
+"""
+
+import hashlib
+import json
+import os
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from safetensors import SafetensorError
+from safetensors.torch import load as load_tensors
+from safetensors.torch import save as save_tensors
+from torch import Tensor
+
+from sedfiber.errors import InputError
+from sedfiber.learning.autoencoder import Autoencoder
+from sedfiber.learning.forecast import ForecastModel
+from sedfiber.learning.neural_ode import NeuralOde
+from sedfiber.learning.pod import ModalBasis
+from sedfiber.learning.scaling import Scales
+from sedfiber.learning.settings import AutoencoderSettings
+
+WEIGHTS = "model.safetensors"
+CARD = "card.json"
+
+
+def save_autoencoder(model: Autoencoder, folder: str | Path, notes: dict[str, Any]) -> None:
+    """Write an autoencoder; ``notes`` (training facts) go into the card as they are.
+
+    Raises InputError when the folder cannot be written.
+    """
+    card = {"kind": "autoencoder", "autoencoder": _autoencoder_card(model), "notes": notes}
+    _write(folder, _prefixed("autoencoder", model), card)
+
+
+def load_autoencoder(folder: str | Path) -> Autoencoder:
+    """Read what `save_autoencoder` wrote; raises InputError for anything else."""
+    card, tensors = _read(folder, "autoencoder")
+    with _Rebuilding(folder):
+        return _rebuild_autoencoder(card, tensors)
+
+
+def save_forecast_model(model: ForecastModel, folder: str | Path, notes: dict[str, Any]) -> None:
+    """Write encoder, decoder, neural ODE and scales together; ``notes`` go into the card.
+
+    Raises InputError when the folder cannot be written.
+    """
+    node = {"hidden": model.node.hidden, "seed": model.node.seed}
+    card = {
+        "kind": "forecast model",
+        "autoencoder": _autoencoder_card(model.autoencoder),
+        "neural_ode": node | {"rtol": model.rtol, "atol": model.atol},
+        "notes": notes,
+    }
+    tensors = _prefixed("autoencoder", model.autoencoder) | _prefixed("node", model.node)
+    _write(folder, tensors, card)
+
+
+def load_forecast_model(folder: str | Path) -> ForecastModel:
+    """Read what `save_forecast_model` wrote; raises InputError for anything else."""
+    card, tensors = _read(folder, "forecast model")
+    with _Rebuilding(folder):
+        settings, weights = card["neural_ode"], _under("node", tensors)
+        scales = weights["latent_scale"], weights["rate_scale"]
+        node = NeuralOde(tuple(settings["hidden"]), 0.0, *scales, settings["seed"])
+        node.load_state_dict(weights)
+        autoencoder = _rebuild_autoencoder(card, tensors)
+        return ForecastModel(autoencoder, node, settings["rtol"], settings["atol"])
+
+
+def _autoencoder_card(model: Autoencoder) -> dict[str, Any]:
+    return {
+        "variant": model.variant,
+        "latent_dim": model.latent_dim,
+        "seed": model.seed,
+        "scales": asdict(model.scales),
+        "settings": asdict(model.settings),
+    }
+
+
+def _rebuild_autoencoder(card: dict[str, Any], tensors: dict[str, Tensor]) -> Autoencoder:
+    facts, weights = card["autoencoder"], _under("autoencoder", tensors)
+    settings = facts["settings"] | {
+        "decoder_hidden": tuple(facts["settings"]["decoder_hidden"])
+    }
+    n_odd = int((weights["decoder.signs_out"] < 0).sum())
+    basis = ModalBasis(weights["modes"].numpy(), n_odd, weights["scale"].numpy().astype(float) ** 2)
+    model = Autoencoder(
+        facts["variant"], facts["latent_dim"], basis,
+        Scales(**facts["scales"]), AutoencoderSettings(**settings), facts["seed"],
+    )
+    model.load_state_dict(weights)
+    return model
+
+
+def _prefixed(prefix: str, model: Autoencoder | NeuralOde) -> dict[str, Tensor]:
+    return {f"{prefix}.{name}": value.contiguous() for name, value in model.state_dict().items()}
+
+
+def _under(prefix: str, tensors: dict[str, Tensor]) -> dict[str, Tensor]:
+    start = f"{prefix}."
+    return {name[len(start) :]: value for name, value in tensors.items() if name.startswith(start)}
+
+
+def _write(folder: str | Path, tensors: dict[str, Tensor], card: dict[str, Any]) -> None:
+    weights = save_tensors(tensors)
+    card = {**card, "sha256": hashlib.sha256(weights).hexdigest()}
+    text = json.dumps(card, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
+    try:
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        _replace(Path(folder) / WEIGHTS, weights)
+        _replace(Path(folder) / CARD, text.encode())
+    except OSError as error:
+        raise InputError(f"cannot write the model to {folder}: {error.strerror}") from error
+
+
+def _replace(path: Path, content: bytes) -> None:
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        temporary.write_bytes(content)
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def _read(folder: str | Path, kind: str) -> tuple[dict[str, Any], dict[str, Tensor]]:
+    try:
+        card = json.loads((Path(folder) / CARD).read_text(encoding="utf-8"))
+        weights = (Path(folder) / WEIGHTS).read_bytes()
+    except (OSError, ValueError) as error:
+        raise InputError(f"{folder} holds no readable model: {error}") from error
+    if not isinstance(card, dict) or card.get("kind") != kind:
+        raise InputError(f"{folder} does not hold a model of the kind {kind!r}")
+    if card.get("sha256") != hashlib.sha256(weights).hexdigest():
+        raise InputError(f"{folder}/{WEIGHTS} does not match its card: damaged or half-written")
+    with _Rebuilding(folder):
+        return card, load_tensors(weights)
+
+
+class _Rebuilding:
+    """Turns what a card with missing or strange entries causes into one InputError."""
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = folder
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: object) -> None:
+        if isinstance(error, (KeyError, TypeError, ValueError, RuntimeError, SafetensorError)):
+            reason = str(error).splitlines()[0]
+            raise InputError(f"{self.folder} holds a model that does not fit: {reason}") from error

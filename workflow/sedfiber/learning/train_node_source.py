@@ -1,0 +1,96 @@
+"""The source's own recipe for the neural ODE.
+
+One step τ through torchdiffeq from every stored sample, even in time, with the loss
+
+    ⟨‖h(t+τ) − h̃(t+τ)‖²⟩ + ⟨‖c(t+τ) − c̃(t+τ)‖²⟩
+
+in which h and c have equal weight; c in units of L/2. Adam, by the sibling papers.
+"""
+
+import copy
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+from torchdiffeq import odeint
+
+from sedfiber.learning.autoencoder import Autoencoder
+from sedfiber.learning.dataset import Dataset
+from sedfiber.learning.neural_ode import N_CENTRE, NeuralOde
+from sedfiber.learning.node_data import encode_grid
+from sedfiber.learning.scaling import Scales, residual_history
+from sedfiber.learning.settings import SourceNodeSettings
+from sedfiber.learning.train_node import new_node
+from sedfiber.learning.training import Progress, ProgressLine, require_finite, silent
+
+GRID_SAMPLES = 64  # only for std(h) and the size of the rates, which scale the network
+
+
+def train_node_source(
+    training: Dataset,
+    autoencoder: Autoencoder,
+    seed: int,
+    settings: SourceNodeSettings,
+    progress: Progress = silent,
+) -> NeuralOde:
+    """Train by the source's recipe; the same arguments give the same bytes.
+
+    Raises NumericalError when the loss is not finite.
+    """
+    scales = autoencoder.scales
+    exact = copy.deepcopy(autoencoder).double()
+    grid = encode_grid(training, exact, scales, GRID_SAMPLES)
+    node = new_node(grid, settings.hidden, settings.damping, seed)
+    _fit(node, _pairs(training, exact, scales), settings, seed, progress)
+    return node
+
+
+def _pairs(training: Dataset, encoder: Autoencoder, scales: Scales) -> tuple[Tensor, ...]:
+    """All pairs of neighbouring samples: start h, b, target [h, drift], τ; float32 rows."""
+    starts, targets, parameters = [], [], []
+    for trajectory in training:
+        b = torch.full((len(trajectory.t), 1), float(scales.log_B(trajectory.B)), dtype=torch.float64)
+        with torch.no_grad():
+            h = encoder.encode(torch.tensor(residual_history(trajectory, scales)), b)
+        centre = torch.tensor(scales.centre(trajectory.positions)[:, :N_CENTRE])
+        steady = torch.tensor(trajectory.terminal_velocity[:N_CENTRE] / scales.half_length)
+        tau = torch.tensor(np.diff(trajectory.t))[:, None]
+        starts.append(h[:-1])
+        targets.append(torch.cat([h[1:], centre.diff(dim=0) - tau * steady], dim=1))
+        parameters.append(torch.cat([b[1:], tau], dim=1))
+    start, target, parameter = (torch.cat(rows).float() for rows in (starts, targets, parameters))
+    return start, parameter[:, :1], target, parameter[:, 1:]
+
+
+def _fit(
+    node: NeuralOde, pairs: tuple[Tensor, ...], settings: SourceNodeSettings, seed: int, progress: Progress
+) -> None:
+    generator = torch.Generator().manual_seed(seed)
+    optimiser = torch.optim.Adam(node.parameters())
+    name = f"neural ODE of the source, d = {node.latent_dim}"
+    line = ProgressLine(name, settings.iterations, progress)
+    for step in range(settings.iterations):
+        early = step < 2 * settings.iterations // 3
+        rate = settings.learning_rate if early else settings.final_learning_rate
+        optimiser.param_groups[0]["lr"] = rate
+        rows = torch.randint(len(pairs[0]), (settings.batch_size,), generator=generator)
+        loss = _one_step_loss(node, *(column[rows] for column in pairs), settings)
+        optimiser.zero_grad()
+        loss.backward()
+        require_finite(loss.item(), name)
+        optimiser.step()
+        line.update(step, loss.item())
+
+
+def _one_step_loss(
+    node: NeuralOde, h: Tensor, b: Tensor, target: Tensor, tau: Tensor, settings: SourceNodeSettings
+) -> Tensor:
+    rest, d = node.rest(b), node.latent_dim
+    # In units of τ all pairs of the batch take one step of length 1.
+    def rates(_: Tensor, state: Tensor) -> Tensor:
+        return tau * node(state[:, :d], b, rest)
+
+    start = nn.functional.pad(h, (0, N_CENTRE))
+    times = torch.tensor([0.0, 1.0])
+    end = odeint(rates, start, times, rtol=settings.rtol, atol=settings.atol, method="dopri5")[-1]
+    return (end - target).square().sum(1).mean()
