@@ -98,18 +98,18 @@ class Oscillator(Motion):
 
 
 class StiffTracking(Motion):
-    """Prothero & Robinson 1974: ``ẏ = −λ (y − cos t) − sin t`` from 1, solved by ``cos t``."""
+    """Prothero & Robinson 1974: ``ẏ = −λ (y − sin t) + cos t`` from 0, solved by ``sin t``."""
 
-    name, start, rate = "stiff tracking", np.array([1.0]), 1e4
+    name, start, rate = "stiff tracking", np.array([0.0]), 1e4
 
     def f(self, t, y):
-        return -self.rate * (y - np.cos(t)) - np.sin(t)
+        return -self.rate * (y - np.sin(t)) + np.cos(t)
 
     def df(self, t, y):
         return np.array([[-self.rate]])
 
     def solution(self, t):
-        return np.array([np.cos(t)])
+        return np.array([np.sin(t)])
 
 
 class Riccati(Motion):
@@ -147,3 +147,8 @@ class FallingPair(Motion):
 
 
 MOTIONS = [Oscillator, StiffTracking, Riccati, FallingPair]
+
+
+def rms_distance(one, other, length):
+    """Root-mean-square bead distance over L of two histories (T, N, 3), per sample."""
+    return np.sqrt(((one - other) ** 2).sum(-1).mean(-1)) / length

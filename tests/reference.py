@@ -67,8 +67,12 @@ def velocity(x, modulus):
     return (rpy(x) @ force.ravel()).reshape(x.shape)
 
 
-def integrate(x, modulus, t, tolerance=1e-10):
-    """Positions (T, N, d) at the times ``t`` by SciPy's Radau with its own difference Jacobian."""
+def integrate(x, modulus, t, tolerance=1e-10, jacobian=None):
+    """Positions (T, N, d) at the times ``t`` by SciPy's Radau.
+
+    ``jacobian(x)`` only speeds up Newton's iterations inside a step; without it SciPy takes
+    differences, and the solution is the same to the tolerance.
+    """
     solution = solve_ivp(
         lambda _, y: velocity(y.reshape(x.shape), modulus).ravel(),
         (t[0], t[-1]),
@@ -77,6 +81,7 @@ def integrate(x, modulus, t, tolerance=1e-10):
         t_eval=t,
         rtol=tolerance,
         atol=tolerance,
+        jac=None if jacobian is None else lambda _, y: jacobian(y.reshape(x.shape)),
     )
     assert solution.success, solution.message
     return solution.y.T.reshape(-1, *x.shape)

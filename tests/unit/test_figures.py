@@ -5,23 +5,24 @@ from importlib import import_module
 from itertools import product
 from pathlib import Path
 
+import matplotlib
 import pandas as pd
 import pytest
 from sedfiber.errors import InputError
 
 MODELS = (("ours_2", "rollout", 2), ("ours_4", "rollout", 4), ("theirs", "source", 4), ("lookup", "lookup", None))
 B_VALUES = {"A": (100, 1000), "B": (150, 700)}
-RECONSTRUCTION = ("method", "variant", "latent_dim", "seed", "test_set", "loss", "loss_path_even")
-ENSEMBLE_ERRORS = ("model", "recipe", "latent_dim", "test_set", "B", "time_fraction", "E", "E_shape", "E_pos")
-BASELINES = ("test_set", "B", "model", "recipe", "latent_dim", "E_worst", "E_median", "E_ensemble_max")
-FORECAST_ERRORS = ("latent_dim", "test_set", "B", "angle_index", "E_max")
+
+
+def table(rows: list[tuple], columns: str) -> pd.DataFrame:
+    return pd.DataFrame(rows, columns=columns.split())
 
 
 def reconstruction() -> pd.DataFrame:
     variants = product(("none", "encoder", "decoder", "double"), (1, 2), (0, 1), "AB")
     rows = [("autoencoder", v, d, seed, s, 1e-3 / d * (1 + seed), 2e-3) for v, d, seed, s in variants]
     rows += [("pod", None, d, None, s, 1e-1 / d, 2e-1) for d, s in product((1, 2), "AB")]
-    return pd.DataFrame(rows, columns=["method", "variant", "latent_dim", "seed", "test_set", "loss", "loss_path_even"])
+    return table(rows, "method variant latent_dim seed test_set loss loss_path_even")
 
 
 def ensemble_errors() -> pd.DataFrame:
@@ -30,9 +31,7 @@ def ensemble_errors() -> pd.DataFrame:
         for (model, recipe, d), s in product(MODELS, "AB")
         for B, time in product((*B_VALUES[s], "all"), (0.1, 0.5, 1.0))
     ]
-    return pd.DataFrame(
-        rows, columns=["model", "recipe", "latent_dim", "test_set", "B", "time_fraction", "E", "E_shape", "E_pos"]
-    )
+    return table(rows, "model recipe latent_dim test_set B time_fraction E E_shape E_pos")
 
 
 def baselines() -> pd.DataFrame:
@@ -41,14 +40,12 @@ def baselines() -> pd.DataFrame:
         for (model, recipe, d), s in product(MODELS, "AB")
         for B in B_VALUES[s]
     ]
-    return pd.DataFrame(
-        rows, columns=["test_set", "B", "model", "recipe", "latent_dim", "E_worst", "E_median", "E_ensemble_max"]
-    )
+    return table(rows, "test_set B model recipe latent_dim E_worst E_median E_ensemble_max")
 
 
 def forecast_errors() -> pd.DataFrame:
     rows = [(d, s, B, k, 1e-5 * k * B) for d, s in product((2, 4), "AB") for B, k in product(B_VALUES[s], (1, 3))]
-    return pd.DataFrame(rows, columns=["latent_dim", "test_set", "B", "angle_index", "E_max"])
+    return table(rows, "latent_dim test_set B angle_index E_max")
 
 
 # command: its table, its further options, a column it cannot do without
@@ -61,10 +58,10 @@ FIGURES = {
 each_figure = pytest.mark.parametrize("command", FIGURES)
 
 
-def plot(command: str, table: pd.DataFrame, folder: Path, options: list[str] | None = None) -> tuple[bytes, bytes]:
+def plot(command: str, data: pd.DataFrame, folder: Path, options: list[str] | None = None) -> tuple[bytes, bytes]:
     """Run a command on a table; returns the bytes of its SVG and its PNG."""
     source, svg, png = folder / "table.csv", folder / "figure.svg", folder / "figure.png"
-    table.to_csv(source, index=False)
+    data.to_csv(source, index=False)
     module = import_module(f"sedfiber.commands.{command}")
     parser = argparse.ArgumentParser()
     module.add_arguments(parser)
@@ -73,10 +70,10 @@ def plot(command: str, table: pd.DataFrame, folder: Path, options: list[str] | N
     return svg.read_bytes(), png.read_bytes()
 
 
-def refusal(command: str, table: pd.DataFrame, folder: Path, options: list[str] | None = None) -> str:
+def refusal(command: str, data: pd.DataFrame, folder: Path, options: list[str] | None = None) -> str:
     """The one-line error; nothing may have been written."""
     with pytest.raises(InputError) as caught:
-        plot(command, table, folder, options)
+        plot(command, data, folder, options)
     assert "\n" not in str(caught.value)
     assert [path.name for path in folder.iterdir()] == ["table.csv"]
     return str(caught.value)
@@ -84,11 +81,11 @@ def refusal(command: str, table: pd.DataFrame, folder: Path, options: list[str] 
 
 @each_figure
 def test_two_renders_are_the_same_bytes(command, tmp_path):
-    table = FIGURES[command][0]()
-    svg, png = plot(command, table, tmp_path)
+    data = FIGURES[command][0]()
+    svg, png = plot(command, data, tmp_path)
     assert svg.startswith(b"<?xml") and b"<dc:date>" not in svg
     assert png.startswith(b"\x89PNG") and b"Software" not in png
-    assert plot(command, table, tmp_path) == (svg, png)
+    assert plot(command, data, tmp_path) == (svg, png)
 
 
 @each_figure
@@ -121,18 +118,23 @@ def test_an_unknown_variant_recipe_or_model_is_refused(tmp_path):
 
 
 def test_user_settings_do_not_reach_the_figures(tmp_path, monkeypatch):
-    import matplotlib
-
-    table = baselines()
-    plain = plot("plot_baselines", table, tmp_path)
+    plain = plot("plot_baselines", baselines(), tmp_path)
     monkeypatch.setitem(matplotlib.rcParams, "axes.facecolor", "red")
-    assert plot("plot_baselines", table, tmp_path) == plain
+    assert plot("plot_baselines", baselines(), tmp_path) == plain
 
 
 def test_one_trajectory_is_enough(tmp_path):
     single = forecast_errors().query("latent_dim == 2 and B in (100, 150) and angle_index == 1")
     assert plot("plot_error_distribution", single.assign(E_max=1e-4), tmp_path)
     assert plot("plot_forecast_errors", ensemble_errors().query("B in (100, 'all')"), tmp_path)
+
+
+@each_figure
+def test_a_diverged_forecast_does_not_stop_a_figure(command, tmp_path):
+    data, column = FIGURES[command][0](), FIGURES[command][2]
+    error = column if command != "plot_error_distribution" else "E_max"
+    data.loc[0, error] = float("inf")
+    assert plot(command, data, tmp_path)
 
 
 def test_a_panel_without_any_error_is_refused(tmp_path):

@@ -13,6 +13,7 @@ from sedfiber.physics.settling import SETTLED, distance_to_terminal, settling_ti
 
 TERMINAL = bent_chain(0, n_beads=11) * [1.0, 1.0, 0.0]  # a planar shape
 LENGTH = 22.0
+HIGHER = np.array([0.0, 0.22, 0.0])  # by 0.01 L
 
 
 def turned(x, angle):
@@ -52,7 +53,7 @@ def test_distance_is_the_least_over_all_turns(seed):
 
 def test_distance_by_hand():
     """Every bead 0.22 a too high, L = 22 a: a distance of 0.01; one bead of eleven: 0.01/√11."""
-    assert distance_to_terminal(TERMINAL + [0, 0.22, 0], TERMINAL, LENGTH) == pytest.approx(0.01, rel=1e-6)
+    assert distance_to_terminal(TERMINAL + HIGHER, TERMINAL, LENGTH) == pytest.approx(0.01, rel=1e-6)
     one = TERMINAL.copy()
     one[3, 1] += 0.22
     assert distance_to_terminal(one, TERMINAL, LENGTH) == pytest.approx(0.01 / math.sqrt(11), rel=1e-6)
@@ -60,7 +61,7 @@ def test_distance_by_hand():
 
 def test_distance_of_a_history():
     """One number per sample."""
-    history = np.array([TERMINAL, TERMINAL + [0, 0.22, 0]])
+    history = np.array([TERMINAL, TERMINAL + HIGHER])
     assert_allclose(distance_to_terminal(history, TERMINAL, LENGTH), [0, 0.01], atol=1e-7)
 
 

@@ -129,7 +129,7 @@ def test_state_and_positions_are_inverse(space, hydrodynamics):
 def test_states_of_a_whole_run_convert_at_once():
     """A history (T, N d + 1) gives positions (T, N, 3), sample by sample."""
     system = system_of("plane")
-    shapes = [bent_chain(seed, dim=2) + [seed, -seed] for seed in range(4)]
+    shapes = [bent_chain(seed, dim=2) + np.array([seed, -seed]) for seed in range(4)]
     states = np.array([system.to_state(x) for x in shapes])
     assert_allclose(system.to_positions(states)[..., :2], shapes, rtol=0, atol=1e-14)
 

@@ -52,7 +52,7 @@ rule write_manifest:
     message:
         "record where every result comes from"
     shell:
-        "{PYTHON} -m snakemake --snakefile {params.snakefile} --configfile {params.configfiles}"
+        "snakemake --snakefile {params.snakefile} --configfile {params.configfiles}"
         " --rulegraph dot > {output.graph} 2> {log} && "
         "sedfiber write_manifest --config {params.config:q} --commit {params.commit} --lock {input.lock}"
         " --rule-graph {output.graph} --outputs {input.results} {input.timings}"

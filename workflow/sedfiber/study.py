@@ -24,6 +24,7 @@ class Study:
         validate(config, schema)
         study = cls(config)
         study._require_apart()
+        study._require_forecast_model()
         return study
 
     def B_values(self, split: str) -> list[str]:
@@ -46,6 +47,12 @@ class Study:
                         f"it is in {seen[B, k]} already, give each pair to one split"
                     )
                 seen[B, k] = split
+
+    def _require_forecast_model(self) -> None:
+        node = self.config["node"]
+        if node["forecast_model"] not in node["models"]:
+            names = ", ".join(node["models"])
+            sys.exit(f"config: node.forecast_model: {node['forecast_model']!r} is not allowed; give one of {names}")
 
     @property
     def simulate_options(self) -> str:

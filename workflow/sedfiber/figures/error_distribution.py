@@ -33,7 +33,9 @@ def draw_error_distribution(table: pd.DataFrame) -> Figure:
     for axes, letter, (latent_dim, test_set) in zip(panels.flat, LETTERS, places, strict=False):
         chosen = _rows_of(rows, latent_dim, test_set)
         mesh = _draw_panel(axes, chosen, norm)
-        letter_panel(axes, letter, f"test set {test_set}, d = {latent_dim:g}\n{_mark_worst(axes, chosen)}")
+        missing = chosen["E_max"].isna().sum()
+        remark = f"; {missing} without a value (grey)" if missing else ""
+        letter_panel(axes, letter, f"test set {test_set}, d = {latent_dim:g}{remark}\n{_mark_worst(axes, chosen)}")
     figure.supxlabel("k, where θ₀ = kπ/48", fontsize="medium")
     figure.supylabel(f"elasto-gravitational number {B_SYMBOL}", fontsize="medium")
     figure.colorbar(mesh, ax=panels, label="E, largest over the trajectory", pad=0.01)

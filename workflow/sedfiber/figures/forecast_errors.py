@@ -47,6 +47,7 @@ def draw_forecast_errors(table: pd.DataFrame, model: str) -> Figure:
         _draw_levels(above, test_set)
         _draw_parts(below, in_set(rows, test_set), shown)
         below.set_xlabel("t / T")
+        below.xaxis.set_major_formatter("{x:g}")
     _add_color_bar(figure, panels[0, 1], norm)
     _add_part_keys(panels[1, 1])
     place_legend(figure, *panels.flat, columns=3)

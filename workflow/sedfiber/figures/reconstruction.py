@@ -38,7 +38,7 @@ def draw_reconstruction(table: pd.DataFrame) -> Figure:
     """Two panels, sets A and B: mean loss over seeds, bars from the least to the greatest."""
     rows = select_columns(table, ("method", "variant", "test_set"), ("latent_dim", "seed", "loss"))
     _require_known(rows)
-    figure = Figure(figsize=(PAGE_WIDTH, 3.0))
+    figure = Figure(figsize=(PAGE_WIDTH, 3.2))
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     for axes, letter, (test_set, title) in zip(panels, "ab", SET_TITLES.items(), strict=True):
         letter_panel(axes, letter, title)

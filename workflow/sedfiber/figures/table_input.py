@@ -4,6 +4,7 @@ import argparse
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
@@ -31,7 +32,7 @@ def write_figure(args: argparse.Namespace, draw: Callable[[pd.DataFrame], Figure
 
 
 def select_columns(table: pd.DataFrame, text: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
-    """The named columns; empty text is ``""``, empty numbers are NaN.
+    """The named columns; empty text is ``""``, empty and infinite numbers (a diverged forecast) are NaN.
 
     Raises InputError when a column is missing, holds text for numbers, or there is no row.
     """
@@ -59,6 +60,6 @@ def _require_columns(table: pd.DataFrame, names: Sequence[str]) -> None:
 
 def _as_numbers(column: pd.Series) -> pd.Series:
     try:
-        return pd.to_numeric(column).astype(float)
+        return pd.to_numeric(column).astype(float).replace([np.inf, -np.inf], np.nan)
     except (ValueError, TypeError) as error:
         raise InputError(f"input: column {column.name} must hold numbers ({error})") from None

@@ -1,6 +1,6 @@
-"""What the neural ODE is trained on: encoded trajectories on a grid even along their paths."""
+"""What the neural ODE is trained on: the encoded samples of all training trajectories."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -11,89 +11,81 @@ from sedfiber._typing import Array
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.dataset import Dataset, Trajectory
 from sedfiber.learning.neural_ode import N_CENTRE
-from sedfiber.learning.sampling import path_even_indices
+from sedfiber.learning.sampling import path_coordinate, path_even_indices
 from sedfiber.learning.scaling import Scales, residual_history
-
-# Samples that are always on the grid, as E_pos divides by the small |c(t) − c(0)|² there.
-EARLY = (1, 2, 4)
-# Substeps of the first sample interval, where stretching relaxes, as shares of it.
-SUBSTEPS = (0.2, 0.5)
-N_SUBSTEPS = len(SUBSTEPS)
 
 
 @dataclass(frozen=True)
-class EncodedGrid:
-    """S trajectories at K + 1 grid times each; tensors with these shapes, units a/U_s and L/2.
+class EncodedSamples:
+    """P samples of S trajectories, one trajectory after the other; units a/U_s and L/2.
 
-    The points 1 … ``N_SUBSTEPS`` are substeps without data: only their ``t`` counts.
+    Float32 tensors ``t`` (P,), ``h`` (P, d), modal coefficients ``z`` (P, r), ``drift``
+    c − c(0) − U_term t (P, 2), ``rates`` of h and drift (P, d+2), ``travelled``
+    |c − c(0)|² (P,), ``path`` to the next sample (P,). ``b`` (S, 1) is the scaled ln ℬ;
+    ``first``, ``last`` (S,) and the path-even ``even`` (S, n) are row numbers.
     """
 
-    b: Tensor
-    """(S, 1), scaled ln ℬ."""
     t: Tensor
-    """(S, K+1), times."""
     h: Tensor
-    """(S, K+1, d), latent variables h = E(X̌)."""
     z: Tensor
-    """(S, K+1, r), modal coefficients of the shape."""
     drift: Tensor
-    """(S, K+1, 2), c − c(0) − U_term t."""
     rates: Tensor
-    """(S, K+1, d+2), time derivatives of h and drift."""
     travelled: Tensor
-    """(S, K+1), |c − c(0)|²; never zero, at the start it has the value of the first sample."""
+    path: Tensor
+    b: Tensor
+    first: Tensor
+    last: Tensor
+    even: Tensor
 
-    @property
-    def n_steps(self) -> int:
-        """Number of grid steps K."""
-        return self.t.shape[1] - 1
-
-    def samples(self) -> tuple[Tensor, Tensor, Tensor]:
-        """All points with data as rows: h (P, d), rates (P, d+2), b (P, 1)."""
-        stored = torch.ones(self.n_steps + 1, dtype=torch.bool)
-        stored[1 : 1 + N_SUBSTEPS] = False
-        h, rates = self.h[:, stored], self.rates[:, stored]
-        b = self.b[:, None].expand(-1, h.shape[1], -1)
-        return h.flatten(0, 1), rates.flatten(0, 1), b.flatten(0, 1)
+    def path_even(self) -> tuple[Tensor, Tensor, Tensor]:
+        """Path-even samples as rows: h (S n, d), rates (S n, d+2), b (S n, 1)."""
+        rows = self.even.flatten()
+        return self.h[rows], self.rates[rows], self.b.repeat_interleave(self.even.shape[1], dim=0)
 
 
-def encode_grid(training: Dataset, encoder: Autoencoder, scales: Scales, count: int) -> EncodedGrid:
-    """Encode a training set with a float64 autoencoder; ``count`` samples a trajectory."""
-    rows = [_encode(trajectory, encoder, scales, count) for trajectory in training]
-    columns = {field.name: [row[field.name] for row in rows] for field in fields(EncodedGrid)}
-    return EncodedGrid(
-        **{name: torch.tensor(np.array(column), dtype=torch.float32) for name, column in columns.items()}
+def encode_samples(training: Dataset, encoder: Autoencoder, count: int) -> EncodedSamples:
+    """Encode with a float64 autoencoder; ``count`` path-even samples of each trajectory."""
+    scales = encoder.scales
+    columns = [_columns(trajectory, encoder) for trajectory in training]
+    lengths = np.array([len(trajectory.t) for trajectory in training])
+    first = np.cumsum(lengths) - lengths
+    even = np.array([path_even_indices(trajectory, scales, count) for trajectory in training])
+    rows = {
+        name: torch.tensor(np.concatenate([column[name] for column in columns]), dtype=torch.float32)
+        for name in columns[0]
+    }
+    return EncodedSamples(
+        **rows,
+        b=torch.tensor([[float(scales.log_B(trajectory.B))] for trajectory in training]),
+        first=torch.tensor(first),
+        last=torch.tensor(first + lengths - 1),
+        even=torch.tensor(first[:, None] + even),
     )
 
 
-def _encode(trajectory: Trajectory, encoder: Autoencoder, scales: Scales, count: int) -> dict[str, Array]:
-    b = scales.log_B([trajectory.B])
-    h, z = _latent(trajectory, encoder, scales, b)
+def _columns(trajectory: Trajectory, encoder: Autoencoder) -> dict[str, Array]:
+    scales = encoder.scales
+    h, z = _encode(trajectory, encoder, scales)
     centre = scales.centre(trajectory.positions)[:, :N_CENTRE]
     steady = trajectory.terminal_velocity[:N_CENTRE] / scales.half_length
     drift = centre - centre[0] - trajectory.t[:, None] * steady
-    rates = CubicSpline(trajectory.t, np.concatenate([h, drift], axis=1))(trajectory.t, 1)
     travelled = ((centre - centre[0]) ** 2).sum(axis=1)
-    travelled[0] = travelled[1]  # stands at the substeps, where no error is taken
-    index, t = _grid(trajectory, scales, count)
-    columns = {"h": h, "z": z, "drift": drift, "rates": rates, "travelled": travelled}
-    return {"b": b, "t": t} | {name: column[index] for name, column in columns.items()}
+    travelled[0] = travelled[1]  # E_pos is not defined at the start; never divide by zero
+    path = path_coordinate(trajectory, scales)
+    return {
+        "t": trajectory.t,
+        "h": h,
+        "z": z,
+        "drift": drift,
+        "rates": CubicSpline(trajectory.t, np.concatenate([h, drift], axis=1))(trajectory.t, 1),
+        "travelled": travelled,
+        "path": np.diff(path, append=path[-1]),
+    }
 
 
-def _latent(
-    trajectory: Trajectory, encoder: Autoencoder, scales: Scales, b: Array
-) -> tuple[Array, Array]:
+def _encode(trajectory: Trajectory, encoder: Autoencoder, scales: Scales) -> tuple[Array, Array]:
     residual = torch.tensor(residual_history(trajectory, scales))
+    b = torch.full((len(residual), 1), float(scales.log_B(trajectory.B)), dtype=torch.float64)
     with torch.no_grad():
         z = encoder.modal(residual)
-        h = encoder.encode_modal(z, torch.tensor(b).expand(len(z), 1))
-    return h.numpy(), z.numpy()
-
-
-def _grid(trajectory: Trajectory, scales: Scales, count: int) -> tuple[Array, Array]:
-    """Sample index and time of each grid point; substeps carry the index of the start."""
-    even = path_even_indices(trajectory, scales, count)
-    samples = np.sort(np.concatenate([even[1:], EARLY])).clip(1, len(trajectory.t) - 1)
-    substeps = trajectory.t[1] * np.array(SUBSTEPS)
-    index = np.concatenate([np.zeros(1 + N_SUBSTEPS, dtype=int), samples])
-    return index, np.concatenate([[0.0], substeps, trajectory.t[samples]])
+        return encoder.encode_modal(z, b).numpy(), z.numpy()

@@ -42,23 +42,31 @@ class NodeSettings:
     damping: float = 0.1
     """A = damping · std(h), diagonal, per a/U_s: the value of the sibling papers."""
     samples_per_trajectory: int = 64
-    """Stored samples of a trajectory on the rollout grid, even along its path."""
-    matching_iterations: int = 6000
+    """Samples of a trajectory that are matched and that segments start from, even along
+    its path."""
+    matching_iterations: int = 4000
     """Stage 1, steps of the optimiser."""
     matching_batch_size: int = 512
     """Stage 1, samples of one step."""
     matching_learning_rate: float = 1.0e-2
     """Stage 1, first learning rate; falls along half a cosine."""
-    rollout_lengths: tuple[int, ...] = (8, 24, 0)
-    """Stage 2, grid steps of one rollout in each phase; 0 for the whole trajectory."""
-    rollout_iterations: tuple[int, ...] = (300, 300, 900)
+    rollout_lengths: tuple[int, ...] = (8, 24)
+    """Stage 2, steps of the segments in each phase."""
+    rollout_iterations: tuple[int, ...] = (400, 300)
     """Stage 2, steps of the optimiser in each phase."""
     rollout_batch_steps: int = 6000
-    """Stage 2, grid steps in one batch of rollouts."""
-    rollout_learning_rate: float = 3.0e-3
+    """Stage 2, steps of all segments of a batch together."""
+    rollout_learning_rate: float = 2.0e-3
     """Stage 2, first learning rate; falls along half a cosine over all phases."""
-    worst_case_power: float = 2.0
-    """Stage 2: the loss is the power mean of E with this exponent over trajectories."""
+    power: float = 1.0
+    """Stage 2, exponent of the power mean over the segments of a batch."""
+    start_share: float = 0.25
+    """Stage 2, share of the segments that start at t = 0."""
+    path_step: float = 0.08
+    """Stage 2, longest path of one step at the start of a segment, units of L/2."""
+    max_stride: int = 6
+    """Stage 2, longest step in sample intervals: 3 a/U_s, above which the Runge–Kutta
+    method is unstable for the bending modes at ℬ = 100."""
     rtol: float = 1.0e-7
     """Relative tolerance of dopri5 in a forecast."""
     atol: float = 1.0e-9

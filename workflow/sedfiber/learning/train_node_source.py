@@ -17,13 +17,13 @@ from torchdiffeq import odeint
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.dataset import Dataset
 from sedfiber.learning.neural_ode import N_CENTRE, NeuralOde
-from sedfiber.learning.node_data import encode_grid
+from sedfiber.learning.node_data import encode_samples
 from sedfiber.learning.scaling import Scales, residual_history
 from sedfiber.learning.settings import SourceNodeSettings
 from sedfiber.learning.train_node import new_node
 from sedfiber.learning.training import Progress, ProgressLine, require_finite, silent
 
-GRID_SAMPLES = 64  # only for std(h) and the size of the rates, which scale the network
+SCALE_SAMPLES = 64  # only for std(h) and the size of the rates, which scale the network
 
 
 def train_node_source(
@@ -39,8 +39,8 @@ def train_node_source(
     """
     scales = autoencoder.scales
     exact = copy.deepcopy(autoencoder).double()
-    grid = encode_grid(training, exact, scales, GRID_SAMPLES)
-    node = new_node(grid, settings.hidden, settings.damping, seed)
+    samples = encode_samples(training, exact, SCALE_SAMPLES)
+    node = new_node(samples, settings.hidden, settings.damping, seed)
     _fit(node, _pairs(training, exact, scales), settings, seed, progress)
     return node
 

@@ -1,0 +1,39 @@
+# make reproduce   the environment, then the whole study
+# make test        the environment, then all tests
+
+PYTHON ?= python3
+BIN := .venv/bin
+READY := .venv/.ready
+
+.PHONY: reproduce test lint environment lock clean
+
+reproduce: environment
+	PATH="$(CURDIR)/$(BIN):$$PATH" snakemake -j2
+
+test: environment
+	PATH="$(CURDIR)/$(BIN):$$PATH" pytest -n 2 --dist loadgroup
+
+lint: environment
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/snakefmt --check Snakefile workflow
+	PATH="$(CURDIR)/$(BIN):$$PATH" snakemake --lint
+
+environment: $(READY)
+
+# Everything by checksum from the lock file. torch has no checksum, because its builds for CPU
+# and GPU share a version; its pin stands in pyproject.toml.
+$(READY): envs/requirements.lock pyproject.toml
+	$(PYTHON) -c 'import sys; sys.exit(None if sys.version_info[:2] >= (3, 11) else "sedfiber needs Python 3.11 or newer; try make PYTHON=python3.11")'
+	$(PYTHON) -m venv .venv
+	$(BIN)/pip install --quiet --no-deps --require-hashes -r envs/requirements.lock
+	$(BIN)/pip install --quiet "$$($(BIN)/python -c 'import tomllib; print(next(d for d in tomllib.load(open("pyproject.toml", "rb"))["project"]["dependencies"] if d.startswith("torch==")))')"
+	$(BIN)/pip install --quiet --no-deps --no-build-isolation --editable .
+	touch $(READY)
+
+# Writes envs/requirements.lock anew from pyproject.toml: newest versions that fit.
+lock: environment
+	$(BIN)/python envs/lock.py
+
+clean:
+	rm -rf .venv

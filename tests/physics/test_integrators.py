@@ -1,0 +1,137 @@
+"""Integrators: known answers, error that follows the tolerance, and refusals instead of wrong shapes."""
+
+from functools import cache
+from itertools import islice
+
+import numpy as np
+import pytest
+from problems import MOTIONS, FallingPair, Oscillator, Riccati, StiffTracking, rms_distance
+
+from sedfiber import NumericalError, Numerics, Scene, simulate
+from sedfiber.physics.integrators import INTEGRATORS, Tolerances
+
+INTERVAL = 0.5
+IMPLICIT = [name for name in INTEGRATORS if name != "dopri5"]
+
+each_integrator = pytest.mark.parametrize("integrator", INTEGRATORS)
+
+
+def march_error(motion, integrator, tolerance, samples=21):
+    """Largest error at the samples of one march over a motion with a known solution."""
+    march = INTEGRATORS[integrator](motion, Tolerances(tolerance, tolerance))
+    states = list(islice(march.states(motion.start, INTERVAL), samples))
+    return max(np.abs(y - motion.solution(k * INTERVAL)).max() for k, y in enumerate(states))
+
+
+@cache
+def truth(B, theta0, t_end):
+    """The fiber by Radau at 1e-10."""
+    return simulate(Scene(B, theta0), Numerics("Radau", 1e-10, 1e-10), t_end=t_end)
+
+
+@each_integrator
+@pytest.mark.parametrize("motion", MOTIONS, ids=lambda motion: motion.name)
+def test_known_solutions(motion, integrator):
+    """Within 200 tolerances of the exact answer after ten time units; the explicit method may refuse."""
+    if motion is StiffTracking and integrator == "dopri5":
+        with pytest.raises(NumericalError, match="stiff"):
+            march_error(motion(), integrator, 1e-8)
+    else:
+        assert march_error(motion(), integrator, 1e-8) < 2e-6
+
+
+@each_integrator
+def test_linear_motion_is_exact(integrator):
+    """Two free touching beads fall at 1.4375 U_s: every method integrates a constant to round-off."""
+    assert march_error(FallingPair(), integrator, 1e-6) < 1e-12
+
+
+@each_integrator
+@pytest.mark.parametrize("motion", [Oscillator, Riccati], ids=lambda motion: motion.name)
+def test_error_follows_the_tolerance(motion, integrator):
+    """Error falls in proportion to the tolerance: slope of the logarithms between 0.6 and 1.2."""
+    tolerances = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9]
+    errors = [march_error(motion(), integrator, tolerance) for tolerance in tolerances]
+    assert 0.6 < np.polyfit(np.log(tolerances), np.log(errors), 1)[0] < 1.2
+
+
+@each_integrator
+def test_counters_count_the_work(integrator):
+    """Right-hand sides are those the motion saw; only implicit methods use the Jacobian."""
+    motion = Oscillator()
+    march = INTEGRATORS[integrator](motion, Tolerances(1e-6, 1e-6))
+    list(islice(march.states(motion.start, INTERVAL), 21))
+    assert 0 < march.counters.rhs <= motion.rhs_count
+    assert march.counters.jacobians == motion.jacobian_count
+    assert march.counters.steps > 10
+    assert motion.jacobian_count == 0 or integrator in IMPLICIT
+
+
+@each_integrator
+def test_first_sample_is_the_start(integrator):
+    """Nothing is integrated before the caller asks for more."""
+    motion = Oscillator()
+    first = next(INTEGRATORS[integrator](motion, Tolerances(1e-6, 1e-6)).states(motion.start, INTERVAL))
+    assert np.array_equal(first, motion.start)
+    assert motion.jacobian_count == 0
+
+
+class Explosion(Oscillator):
+    """``ẏ = y²`` from 1 is infinite at t = 1."""
+
+    name, start = "explosion", np.array([1.0])
+
+    def f(self, t, y):
+        return y * y
+
+    def df(self, t, y):
+        return np.array([2.0 * y])
+
+
+class Undefined(Oscillator):
+    """NaN once ``t`` is above 1: a force that has lost its meaning."""
+
+    name = "undefined"
+
+    def f(self, t, y):
+        return super().f(t, y) * (np.nan if t > 1 else 1.0)
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning", "ignore::UserWarning")
+@each_integrator
+@pytest.mark.parametrize("motion", [Explosion, Undefined], ids=lambda motion: motion.name)
+def test_what_cannot_be_integrated_is_refused(motion, integrator):
+    """A solution that ends at t = 1 is never returned beyond it; the error is one line with the method's name."""
+    march = INTEGRATORS[integrator](motion(), Tolerances(1e-6, 1e-6))
+    with pytest.raises(NumericalError, match=f"^{integrator}: .* at t = ") as error:
+        list(islice(march.states(motion.start, INTERVAL), 10))
+    assert "\n" not in str(error.value)
+
+
+def test_dopri5_gives_up_on_a_stiff_fiber_and_says_so():
+    """The source's integrator at ℬ = 100 with samples 5 apart: more than its 1000 steps in one call."""
+    with pytest.raises(NumericalError, match=r"dopri5: .*stiff.*implicit"):
+        simulate(Scene(100, 0.5), Numerics("dopri5", interval=5.0), t_end=20.0)
+
+
+@pytest.mark.parametrize(("B", "t_end"), [(100, 3.0), (1000, 10.0), (10000, 20.0)])
+def test_dopri5_is_right_where_it_finishes(B, t_end):
+    """With samples 0.5 apart it gets through, and agrees with the default to 1e-6 L."""
+    scene = Scene(B, 0.5)
+    explicit, default = (simulate(scene, Numerics(name), t_end=t_end) for name in ("dopri5", Numerics.integrator))
+    assert rms_distance(explicit.positions, default.positions, scene.length).max() < 1e-6
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+@pytest.mark.parametrize(("B", "t_end"), [(100, 10.0), (1000, 100.0), (10000, 100.0)])
+@each_integrator
+def test_loose_tolerances_are_right_or_refused(integrator, B, t_end, tolerance):
+    """Within ten times the tolerance (in L) of the truth, or an error: never a wrong shape (issue 4 §2)."""
+    if integrator == "dopri5" and B < 10000:
+        t_end = min(t_end, 10.0)  # it crawls, and the shape is wrong long before
+    try:
+        run = simulate(Scene(B, 0.7), Numerics(integrator, tolerance, tolerance), t_end=t_end)
+    except NumericalError as error:
+        assert "\n" not in str(error)
+    else:
+        assert rms_distance(run.positions, truth(B, 0.7, t_end).positions, 62.0).max() < 10 * tolerance

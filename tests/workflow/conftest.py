@@ -1,0 +1,89 @@
+"""A finished tiny study, made once, and copies of it to change and rerun."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).parents[2]
+TINY = Path(__file__).with_name("tiny.yaml")
+
+
+class Checkout:
+    """A copy of the workflow in a folder of its own, with what it has made so far."""
+
+    def __init__(self, folder: Path):
+        self.folder = folder
+
+    def snakemake(self, *words: str) -> subprocess.CompletedProcess:
+        """Run Snakemake there, as a user would."""
+        command = [sys.executable, "-m", "snakemake", *words]
+        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=clean_environment())
+
+    def planned(self, *words: str) -> dict[str, int]:
+        """Number of jobs of each rule that a run would start; target rules are left out."""
+        run = self.snakemake("--dry-run", "--quiet", "rules", *words)
+        assert run.returncode == 0, run.stdout + run.stderr
+        text = run.stdout + run.stderr
+        jobs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)}
+        targets = {"all", "total", "simulations", "dataset", "autoencoders", "node", "forecasts", "errors"}
+        return {name: count for name, count in jobs.items() if name not in targets}
+
+    def edit(self, path: str, old: str, new: str) -> None:
+        """Replace text that must be there once or more."""
+        file = self.folder / path
+        text = file.read_text(encoding="utf-8")
+        assert old in text, f"{old!r} is not in {path}"
+        file.write_text(text.replace(old, new, 1), encoding="utf-8")
+
+    def append(self, path: str, line: str) -> None:
+        """Add one line to a file."""
+        with (self.folder / path).open("a", encoding="utf-8") as handle:
+            handle.write(line + "\n")
+
+
+def clean_environment() -> dict[str, str]:
+    """The environment without what pytest or a calling Snakemake put there."""
+    return {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "SNAKEMAKE_PROFILE")}
+
+
+def check_out(folder: Path, config: Path) -> Checkout:
+    """Copy the workflow's own files, with ``config`` as its config.yaml."""
+    folder.mkdir(parents=True)
+    shutil.copy(REPOSITORY / "Snakefile", folder)
+    shutil.copy(config, folder / "config.yaml")
+    for name in ("workflow", "envs", "profiles"):
+        shutil.copytree(REPOSITORY / name, folder / name)  # with the compiled kernels in __pycache__
+    return Checkout(folder)
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory) -> Checkout:
+    """A tiny study that has run to its end."""
+    checkout = check_out(tmp_path_factory.mktemp("finished") / "study", TINY)
+    run = checkout.snakemake("-j2")
+    assert run.returncode == 0, run.stdout[-4000:] + run.stderr[-4000:]
+    return checkout
+
+
+@pytest.fixture
+def rerun(finished, tmp_path) -> Checkout:
+    """A copy of the finished study, times of files included, to change."""
+    shutil.copytree(finished.folder, tmp_path / "study")
+    return Checkout(tmp_path / "study")
+
+
+@pytest.fixture
+def empty(tmp_path) -> Checkout:
+    """The tiny study before anything has run."""
+    return check_out(tmp_path / "study", TINY)
+
+
+@pytest.fixture
+def full(tmp_path) -> Checkout:
+    """The real study before anything has run."""
+    return check_out(tmp_path / "study", REPOSITORY / "config.yaml")

@@ -1,0 +1,118 @@
+"""What the workflow plans: how many jobs, and which ones after a change."""
+
+import pytest
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
+
+AFTER_EVERYTHING = {"tabulate_timings", "write_manifest"}
+ERRORS = {"tabulate_forecast_errors", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"}
+MODELS = {"train_autoencoder", "tabulate_reconstruction", "plot_reconstruction", "train_node", "choose_forecast_model"}
+FORECASTS = {"forecast_test_set", "forecast_by_lookup"}
+
+
+def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
+    """84 + 77 + 66 = 227 simulations; 4 variants × 6 dimensions = 24 autoencoders."""
+    planned = full.planned()
+    assert planned["simulate"] == 227
+    assert planned["train_autoencoder"] == 24
+    assert planned["train_node"] == 4
+    assert planned["forecast_test_set"] == 8
+    assert planned["aggregate_dataset"] == planned["solve_terminal_shapes"] == 3
+
+
+@pytest.mark.parametrize(
+    ("target", "last"),
+    [
+        ("simulations", {"simulate", "tabulate_trajectories"}),
+        ("dataset", {"simulate", "aggregate_dataset", "solve_terminal_shapes"}),
+        ("autoencoders", {"train_autoencoder", "tabulate_reconstruction"}),
+        ("node", {"train_node", "choose_forecast_model"}),
+        ("forecasts", {"forecast_test_set", "forecast_by_lookup"}),
+        ("errors", ERRORS | {"plot_reconstruction"}),
+        ("check_simulations", {"check_simulation", "tabulate_checks"}),
+    ],
+)
+def test_target_rules_make_their_stage(empty, target, last):
+    """Each stage can be asked for by name and plans its own rules."""
+    planned = empty.planned(target)
+    assert last <= set(planned)
+    assert not AFTER_EVERYTHING & set(planned)
+
+
+def test_a_second_run_has_nothing_to_do(finished):
+    """The graph is complete: what ran is not planned again."""
+    run = finished.snakemake("-j2")
+    assert "Nothing to be done" in run.stdout + run.stderr
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        "workflow/sedfiber/physics/bending.py",
+        "workflow/sedfiber/learning/dataset.py",
+        "envs/requirements.lock",
+        "config.yaml",
+        "results/dataset/train.parquet",
+        "results/trajectories/B50_k4.parquet",
+    ],
+)
+def test_a_touched_file_reruns_nothing(rerun, path):
+    """Inputs are compared by checksum, so a new time stamp alone means nothing."""
+    (rerun.folder / path).touch()
+    assert rerun.planned() == {}
+
+
+def test_an_edited_physics_module_reruns_simulations_and_all_that_follows(rerun):
+    """Everything but nothing else: ten rules hang on the mechanics."""
+    rerun.append("workflow/sedfiber/physics/bending.py", "# edited")
+    planned = rerun.planned()
+    assert planned["simulate"] == 10
+    assert {"aggregate_dataset", "solve_terminal_shapes"} | MODELS | FORECASTS | ERRORS <= set(planned)
+
+
+def test_an_edited_learning_module_keeps_the_simulations(rerun):
+    """Physics knows nothing of learning."""
+    rerun.append("workflow/sedfiber/learning/train_autoencoder.py", "# edited")
+    planned = rerun.planned()
+    assert not {"simulate", "aggregate_dataset", "forecast_by_lookup"} & set(planned)
+    assert planned["train_autoencoder"] == 8
+
+
+def test_an_edited_figure_module_redraws_only_that_figure(rerun):
+    """Tables stay; the manifest follows because it holds the figure's checksum."""
+    rerun.append("workflow/sedfiber/figures/baselines.py", "# edited")
+    assert set(rerun.planned()) == {"plot_baselines"} | AFTER_EVERYTHING
+
+
+def test_the_style_of_figures_redraws_all_of_them(rerun):
+    """One style module for all figures, and no table depends on it."""
+    rerun.append("workflow/sedfiber/figures/style.py", "# edited")
+    plots = {"plot_reconstruction", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"}
+    assert set(rerun.planned()) == plots | AFTER_EVERYTHING
+
+
+def test_the_neural_odes_learning_rate_reruns_them_and_what_follows(rerun):
+    """Only those of our recipe: the source's has settings of its own."""
+    rerun.edit("config.yaml", "matching_iterations: 60", "matching_iterations: 61")
+    planned = rerun.planned()
+    assert planned["train_node"] == 1
+    assert planned["forecast_test_set"] == 2
+    assert set(planned) == {"train_node", "choose_forecast_model", "forecast_test_set"} | ERRORS | AFTER_EVERYTHING
+
+
+def test_a_changed_test_value_reruns_its_simulations_but_no_training(rerun):
+    """ℬ = 100 → 120 in test set B: two simulations, and what uses set B."""
+    rerun.edit("config.yaml", "B: { B: [100]", "B: { B: [120]")
+    planned = rerun.planned()
+    assert planned["simulate"] == 2
+    assert planned["aggregate_dataset"] == planned["solve_terminal_shapes"] == 1
+    assert planned["forecast_test_set"] == 2 and planned["forecast_by_lookup"] == 1
+    assert not {"train_autoencoder", "train_node", "choose_forecast_model"} & set(planned)
+
+
+def test_a_deleted_trajectory_is_simulated_again(rerun):
+    """That job and what follows it."""
+    (rerun.folder / "results/trajectories/B50_k4.parquet").unlink()
+    planned = rerun.planned()
+    assert planned["simulate"] == 1 and planned["aggregate_dataset"] == 1
+    assert "solve_terminal_shapes" not in planned

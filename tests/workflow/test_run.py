@@ -1,0 +1,134 @@
+"""A whole tiny study: complete, repeatable, and robust against a killed job."""
+
+import hashlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+import sedfiber
+from workflow_helpers import results_of
+
+pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
+
+
+def test_tables_have_a_row_for_everything(finished):
+    """10 runs; 8 autoencoders and 2 PODs on 2 sets; 4 forecasts by each of 3 forecasters."""
+    tables = finished.folder / "results/tables"
+    assert len(pd.read_csv(tables / "trajectories.csv")) == 10
+    assert len(pd.read_csv(tables / "reconstruction.csv")) == (8 + 2) * 2
+    errors = pd.read_csv(tables / "forecast_errors.csv")
+    assert list(errors.columns) == [
+        "latent_dim", "test_set", "B", "angle_index",
+        "E_max", "E_mean", "E_final", "E_shape_max", "E_pos_max",
+    ]  # fmt: skip
+    assert len(errors) == 4
+    assert set(pd.read_csv(tables / "baselines.csv")["recipe"]) == {"rollout", "source", "lookup"}
+    timings = pd.read_csv(tables / "timings.csv").set_index("stage")
+    assert timings.loc["simulate", "jobs"] == 10 and timings.loc["train_autoencoder", "jobs"] == 8
+
+
+def test_the_data_set_reads_as_one_with_split_labels(finished):
+    """The three partitions are one Parquet data set."""
+    whole = pd.read_parquet(finished.folder / "results/dataset")
+    runs = whole.groupby("split").apply(lambda part: len(part.groupby(["B", "angle_index"])))
+    assert runs.to_dict() == {"A": 2, "B": 2, "train": 6}
+
+
+def test_the_manifest_names_every_result_with_its_checksum(finished):
+    """Provenance: configuration, lock, versions, rule graph and the sha256 of each output."""
+    manifest = json.loads((finished.folder / "results/manifest.json").read_text())
+    assert manifest["config"]["scene"]["n_beads"] == 7
+    assert manifest["packages"]["numpy"] and manifest["packages"]["torch"]
+    assert "simulate" in manifest["rule_graph"] and "->" in manifest["rule_graph"]
+    for path, digest in manifest["sha256"].items():
+        assert hashlib.sha256((finished.folder / path).read_bytes()).hexdigest() == digest
+    assert len(manifest["sha256"]) > 50
+
+
+def test_the_same_command_twice_gives_the_same_bytes(finished, empty):
+    """Parquet, models, tables and figures; times of jobs are the only exception."""
+    run = empty.snakemake("-j2")
+    assert run.returncode == 0, run.stdout + run.stderr
+    first, second = results_of(finished.folder), results_of(empty.folder)
+    assert first.keys() == second.keys()
+    assert [path for path in first if first[path] != second[path]] == []
+
+
+def test_the_trained_model_forecasts_from_command_and_python(finished, tmp_path):
+    """The public interface: a file in the simulations' format, and positions (T, N, 3)."""
+    folder = finished.folder / "results/models/forecast"
+    command = [sys.executable, "-m", "sedfiber", "forecast", "--B", "100", "--theta0", "0.7"]
+    subprocess.run([*command, "--model", folder, "-o", tmp_path / "f.parquet", "--t-end", "10"], check=True)
+    written = sedfiber.read_trajectory(tmp_path / "f.parquet")
+    positions = sedfiber.load_model(folder).forecast(100, 0.7, written.t)
+    assert positions.shape == (21, 7, 3)
+    assert abs(positions - written.positions).max() < 1e-12
+
+
+def test_forecasts_outside_the_training_range_warn_in_one_line(finished, tmp_path):
+    """ℬ = 50 to 200 was trained; 400 is flagged on standard error and in the file."""
+    command = [sys.executable, "-m", "sedfiber", "forecast", "--B", "400", "--theta0", "0.7", "--t-end", "5"]
+    model = finished.folder / "results/models/forecast"
+    run = subprocess.run(
+        [*command, "--model", model, "-o", tmp_path / "f.parquet"], capture_output=True, text=True, check=True
+    )
+    assert run.stderr.count("\n") == 1 and "outside the training range" in run.stderr
+    facts = sedfiber.read_trajectory(tmp_path / "f.parquet").metadata
+    assert facts["model"]["within_training_range"] is False
+
+
+def test_a_wrong_model_folder_is_one_line(finished, tmp_path):
+    """An autoencoder is not a forecast model, an empty folder is none, half a file is damage."""
+    damaged = tmp_path / "damaged"
+    damaged.mkdir()
+    good = finished.folder / "results/models/forecast"
+    (damaged / "card.json").write_bytes((good / "card.json").read_bytes())
+    (damaged / "model.safetensors").write_bytes((good / "model.safetensors").read_bytes()[:100])
+    for folder in (finished.folder / "results/models/autoencoders/none_d1_s0", tmp_path, damaged):
+        command = [sys.executable, "-m", "sedfiber", "forecast", "--B", "100", "--theta0", "0.7"]
+        output = tmp_path / "f.parquet"
+        run = subprocess.run([*command, "--model", folder, "-o", output], capture_output=True, text=True)
+        assert run.returncode == 1 and run.stderr.count("\n") == 1, run.stderr
+        assert str(folder) in run.stderr and not output.exists()
+
+
+@pytest.mark.parametrize("verb", ["simulate", "train_autoencoder"])
+def test_a_killed_job_leaves_nothing_that_a_rerun_takes_for_a_result(empty, verb):
+    """SIGKILL to the job in the middle of its work; the next run repairs everything."""
+    run = subprocess.Popen(
+        [sys.executable, "-m", "snakemake", "-j1", "autoencoders"],
+        cwd=empty.folder,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
+    victim = _wait_for_job(empty.folder, verb)
+    os.kill(victim, signal.SIGKILL)
+    assert run.wait(timeout=120) != 0
+    done = [path for path in (empty.folder / "results/trajectories").glob("*.parquet")]
+    for path in done:
+        sedfiber.read_trajectory(path)  # whole, or not there
+    again = empty.snakemake("-j2", "autoencoders")
+    assert again.returncode == 0, again.stdout + again.stderr
+    assert not list(empty.folder.rglob("*.partial"))
+
+
+def _wait_for_job(folder: Path, verb: str) -> int:
+    """The process that runs ``sedfiber verb`` with its files in ``folder``."""
+    deadline = time.monotonic() + 120
+    while time.monotonic() < deadline:
+        for process in Path("/proc").glob("[0-9]*"):
+            try:
+                words = (process / "cmdline").read_bytes().split(b"\0")
+                if words[1:4] == [b"-m", b"sedfiber", verb.encode()] and (process / "cwd").resolve() == folder:
+                    return int(process.name)
+            except OSError:
+                continue
+        time.sleep(0.02)
+    raise AssertionError(f"no job {verb} appeared")
