@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 import reference
 from problems import SCENES, bent_chain, system_of
-
 from sedfiber import Scene, simulate
 
 

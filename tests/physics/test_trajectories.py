@@ -9,7 +9,6 @@ import pytest
 import reference
 import yaml
 from problems import rms_distance
-
 from sedfiber import Numerics, Scene, simulate
 from sedfiber.physics.assembly import assemble
 

@@ -2,9 +2,8 @@
 
 import pytest
 import torch
-from tiny_fiber import TRAINED, settling
-
 from sedfiber.learning.dataset import Dataset
+from tiny_fiber import TRAINED, settling
 
 
 @pytest.fixture(autouse=True)

@@ -1,14 +1,13 @@
 import numpy as np
 import pytest
 import torch
-from tiny_fiber import N_BEADS
-
 from sedfiber.errors import InputError, NumericalError
 from sedfiber.learning.dataset import Dataset, mirrored
-from sedfiber.learning.reconstruction import autoencoder_errors, mean_over_samples, pod_errors
 from sedfiber.learning.pod import pod_basis
+from sedfiber.learning.reconstruction import autoencoder_errors, mean_over_samples, pod_errors
 from sedfiber.learning.settings import VARIANTS, AutoencoderSettings
 from sedfiber.learning.train_autoencoder import path_even_residuals, train_autoencoder
+from tiny_fiber import N_BEADS
 
 QUICK = AutoencoderSettings(
     decoder_hidden=(12,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=60
@@ -49,9 +48,15 @@ def test_variant_says_who_sees_B(model, shapes):
 
 
 def test_learns_more_than_pod_of_the_same_dimension(training):
-    model = train_autoencoder(training, "decoder", 2, 0, AutoencoderSettings(
-        decoder_hidden=(16,), modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=400
-    ))
+    model = train_autoencoder(
+        training,
+        "decoder",
+        2,
+        0,
+        AutoencoderSettings(
+            decoder_hidden=(16,), modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=400
+        ),
+    )
     basis = pod_basis(path_even_residuals(training, 12)[0], 2)
     learned = mean_over_samples([autoencoder_errors(model, one) for one in training])
     linear = mean_over_samples([pod_errors(basis, model.scales, one) for one in training])
@@ -75,7 +80,7 @@ def test_latent_dimension_beyond_the_modes_is_refused(training):
 
 
 def test_loss_that_is_not_finite_stops_the_training(training):
-    huge = [one for one in training]
+    huge = list(training)
     huge[0].positions[5] *= 1e30
     with pytest.raises(NumericalError, match="autoencoder decoder, d = 2"):
         train_autoencoder(Dataset(tuple(huge)), "decoder", 2, 0, QUICK)

@@ -1,7 +1,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-
 from sedfiber.errors import InputError
 from sedfiber.learning.dataset import Dataset, mirrored, read_dataset
 from tiny_fiber import N_BEADS, NAMES, TRAINED, bent_fiber, settling
@@ -18,7 +17,9 @@ def write_pair(folder, trajectories):
     pd.concat(tables).to_parquet(samples)
     shapes = {one.B: one for one in trajectories}.values()
     rows = [dict(zip(NAMES, one.terminal.ravel(), strict=True)) | {"B": one.B} for one in shapes]
-    velocities = [dict(zip(("velocity_x", "velocity_y", "velocity_z"), one.terminal_velocity)) for one in shapes]
+    velocities = [
+        dict(zip(("velocity_x", "velocity_y", "velocity_z"), one.terminal_velocity, strict=True)) for one in shapes
+    ]
     pd.DataFrame([row | more for row, more in zip(rows, velocities, strict=True)]).to_parquet(steady)
     return samples, steady
 
@@ -29,7 +30,10 @@ def test_reads_back_what_was_written(tmp_path, training):
     assert read.B_values.tolist() == list(TRAINED)
     for one, other in zip(training, read, strict=True):
         assert (one.B, one.angle_index, one.theta0, one.split) == (
-            other.B, other.angle_index, other.theta0, other.split,
+            other.B,
+            other.angle_index,
+            other.theta0,
+            other.split,
         )
         for name in ("t", "positions", "terminal", "terminal_velocity"):
             np.testing.assert_array_equal(getattr(one, name), getattr(other, name))

@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-
 from sedfiber.errors import InputError
 from sedfiber.learning.dataset import Dataset
 from sedfiber.learning.lookup import LookupTable, spline_weights

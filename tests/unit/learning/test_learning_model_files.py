@@ -2,23 +2,30 @@ import json
 
 import numpy as np
 import pytest
-from tiny_fiber import settling
-
 from sedfiber.errors import InputError
 from sedfiber.learning.forecast import ForecastModel, Start
 from sedfiber.learning.model_files import (
-    load_autoencoder, load_forecast_model, save_autoencoder, save_forecast_model,
+    load_autoencoder,
+    load_forecast_model,
+    save_autoencoder,
+    save_forecast_model,
 )
 from sedfiber.learning.settings import AutoencoderSettings, NodeSettings
 from sedfiber.learning.train_autoencoder import train_autoencoder
 from sedfiber.learning.train_node import train_node
+from tiny_fiber import settling
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(8,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=10
 )
 NODE = NodeSettings(
-    hidden=(8,), samples_per_trajectory=8, matching_iterations=5, matching_batch_size=16,
-    rollout_lengths=(4,), rollout_iterations=(2,), rollout_batch_steps=20,
+    hidden=(8,),
+    samples_per_trajectory=8,
+    matching_iterations=5,
+    matching_batch_size=16,
+    rollout_lengths=(4,),
+    rollout_iterations=(2,),
+    rollout_batch_steps=20,
 )
 
 

@@ -1,6 +1,5 @@
 import pytest
 import torch
-
 from sedfiber.learning.networks import MirrorNetwork
 
 SIGNS_IN = torch.tensor([-1.0, -1.0, 1.0])

@@ -2,26 +2,30 @@ import numpy as np
 import pytest
 import torch
 from scipy.integrate import solve_ivp
-from tiny_fiber import settling
-
 from sedfiber.errors import InputError
 from sedfiber.learning.forecast import ForecastModel, Start
 from sedfiber.learning.measures import forecast_error
 from sedfiber.learning.neural_ode import NeuralOde
+from sedfiber.learning.node_data import encode_samples
 from sedfiber.learning.rollout import roll_out
 from sedfiber.learning.segments import draw_segments
-from sedfiber.learning.node_data import encode_samples
 from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
 from sedfiber.learning.train_autoencoder import train_autoencoder
 from sedfiber.learning.train_node import train_node
 from sedfiber.learning.train_node_source import train_node_source
+from tiny_fiber import settling
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(16,), modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=400
 )
 QUICK = NodeSettings(
-    hidden=(12,), samples_per_trajectory=12, matching_iterations=20, matching_batch_size=32,
-    rollout_lengths=(4, 6), rollout_iterations=(3, 3), rollout_batch_steps=60,
+    hidden=(12,),
+    samples_per_trajectory=12,
+    matching_iterations=20,
+    matching_batch_size=32,
+    rollout_lengths=(4, 6),
+    rollout_iterations=(3, 3),
+    rollout_batch_steps=60,
 )
 
 
@@ -79,8 +83,13 @@ def test_segments_follow_the_stored_samples(training, autoencoder):
 
 def test_training_forecasts_an_angle_it_has_not_seen(training, autoencoder):
     settings = NodeSettings(
-        hidden=(24, 24), samples_per_trajectory=16, matching_iterations=600, matching_batch_size=128,
-        rollout_lengths=(6,), rollout_iterations=(60,), rollout_batch_steps=300,
+        hidden=(24, 24),
+        samples_per_trajectory=16,
+        matching_iterations=600,
+        matching_batch_size=128,
+        rollout_lengths=(6,),
+        rollout_iterations=(60,),
+        rollout_batch_steps=300,
     )
     node = train_node(training, autoencoder, 0, settings)
     model = ForecastModel(autoencoder, node, settings.rtol, settings.atol)
@@ -103,9 +112,13 @@ def test_source_recipe_lowers_its_loss(training, autoencoder):
     assert loss(losses[-1]) < 0.3 * loss(untrained[-1])
 
 
-@pytest.mark.parametrize("train, settings", [
-    (train_node, QUICK), (train_node_source, SourceNodeSettings(hidden=(8,), iterations=3, batch_size=16)),
-])
+@pytest.mark.parametrize(
+    "train, settings",
+    [
+        (train_node, QUICK),
+        (train_node_source, SourceNodeSettings(hidden=(8,), iterations=3, batch_size=16)),
+    ],
+)
 def test_same_seed_gives_the_same_bytes(train, settings, training, autoencoder):
     first, second = (train(training, autoencoder, 5, settings).state_dict() for _ in range(2))
     assert all(first[name].numpy().tobytes() == second[name].numpy().tobytes() for name in first)

@@ -1,5 +1,4 @@
 import torch
-
 from sedfiber.learning.optimiser import Soap
 from sedfiber.learning.training import cosine_rate
 

@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-
 from sedfiber.learning.dataset import mirrored
 from sedfiber.learning.pod import modal_basis, pod_basis
 from sedfiber.learning.train_autoencoder import path_even_residuals

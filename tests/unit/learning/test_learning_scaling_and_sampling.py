@@ -1,6 +1,5 @@
 import numpy as np
 import pytest
-
 from sedfiber.learning.sampling import path_coordinate, path_even_indices
 from sedfiber.learning.scaling import Scales, residual_history
 from tiny_fiber import N_BEADS
@@ -19,7 +18,7 @@ def test_covers_is_the_training_range(training, B, theta0, inside):
 def test_residual_is_in_half_lengths_and_vanishes_at_the_terminal_shape(training):
     scales = Scales.of(training)
     one = training.trajectories[1]
-    np.testing.assert_allclose(scales.residual(one.terminal + [3.0, 4.0, 5.0], one.terminal), 0, atol=1e-15)
+    np.testing.assert_allclose(scales.residual(one.terminal + np.array([3.0, 4.0, 5.0]), one.terminal), 0, atol=1e-15)
     moved = one.terminal.copy()
     moved[0, 0] += N_BEADS
     assert scales.residual(moved, one.terminal)[0] == pytest.approx(1.0)

@@ -108,7 +108,7 @@ def _read_parquet(path: str | Path) -> pd.DataFrame:
 def _position_columns(table: pd.DataFrame, path: str | Path) -> list[str]:
     n_beads = sum(name.startswith("x") and name[1:].isdigit() for name in table.columns)
     wanted = [f"{axis}{bead}" for bead in range(n_beads) for axis in AXES]
-    required = wanted + ["B", "theta0", "angle_index", "split", "t"]
+    required = [*wanted, "B", "theta0", "angle_index", "split", "t"]
     missing = [name for name in required if name not in table.columns]
     if missing or n_beads == 0:
         raise InputError(f"{path} lacks the columns {missing or 'x0, y0, z0, …'}")

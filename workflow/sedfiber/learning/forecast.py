@@ -39,9 +39,7 @@ class Start:
     @classmethod
     def of(cls, trajectory: Trajectory) -> "Start":
         """The start of a stored trajectory: its first sample and its steady state."""
-        return cls(
-            trajectory.B, trajectory.positions[0], trajectory.terminal, trajectory.terminal_velocity
-        )
+        return cls(trajectory.B, trajectory.positions[0], trajectory.terminal, trajectory.terminal_velocity)
 
 
 class ForecastModel:
@@ -78,9 +76,7 @@ class ForecastModel:
         residual = self._encoder.decode(h.flatten(0, 1), b.expand(len(t), -1, -1).flatten(0, 1))
         residual = residual.unflatten(0, h.shape[:2]).transpose(0, 1).numpy()
         drift = nn.functional.pad(drift, (0, 3 - N_CENTRE)).transpose(0, 1).numpy()
-        return np.stack([
-            self._assemble(*parts, t) for parts in zip(starts, residual, drift, strict=True)
-        ])
+        return np.stack([self._assemble(*parts, t) for parts in zip(starts, residual, drift, strict=True)])
 
     def _latent(self, starts: Sequence[Start], b: Tensor) -> Tensor:
         residual = np.stack([self.scales.residual(start.initial, start.terminal) for start in starts])
@@ -96,8 +92,12 @@ class ForecastModel:
             return state[None, :, :d], state[None, :, d:]
         try:
             states = odeint(
-                lambda _, y: self._node(y[:, :d], b, rest), state, times,
-                rtol=self.rtol, atol=self.atol, method="dopri5",
+                lambda _, y: self._node(y[:, :d], b, rest),
+                state,
+                times,
+                rtol=self.rtol,
+                atol=self.atol,
+                method="dopri5",
             )[skipped:]
         except AssertionError as error:
             raise NumericalError(f"the forecast's integration failed: {error}") from error
@@ -115,8 +115,6 @@ class ForecastModel:
         n_beads = self.scales.n_beads
         for start in starts:
             if start.initial.shape != (n_beads, 3) or start.terminal.shape != (n_beads, 3):
-                raise InputError(
-                    f"the model was trained on {n_beads} beads, not on {len(start.initial)}"
-                )
+                raise InputError(f"the model was trained on {n_beads} beads, not on {len(start.initial)}")
         if len(t) == 0 or t[0] < 0 or not (np.diff(t) > 0).all():
             raise InputError("forecast times must ascend from zero or later")

@@ -26,10 +26,9 @@ class LookupTable:
         entries = {(trajectory.B, trajectory.theta0): trajectory for trajectory in training}
         if len(entries) != len(self.log_B) * len(self.theta0):
             raise InputError("the lookup baseline needs every training B at every training theta0")
-        self.table = np.stack([
-            np.stack([_extended(entries[B, theta0], self.t) for theta0 in self.theta0])
-            for B in training.B_values
-        ])
+        self.table = np.stack(
+            [np.stack([_extended(entries[B, theta0], self.t) for theta0 in self.theta0]) for B in training.B_values]
+        )
 
     def forecast(self, B: float, theta0: float, t: Times) -> History:
         """Positions (T, N, 3) at the sample times ``t`` (T,), which the table must hold.

@@ -85,14 +85,16 @@ def _autoencoder_card(model: Autoencoder) -> dict[str, Any]:
 
 def _rebuild_autoencoder(card: dict[str, Any], tensors: dict[str, Tensor]) -> Autoencoder:
     facts, weights = card["autoencoder"], _under("autoencoder", tensors)
-    settings = facts["settings"] | {
-        "decoder_hidden": tuple(facts["settings"]["decoder_hidden"])
-    }
+    settings = facts["settings"] | {"decoder_hidden": tuple(facts["settings"]["decoder_hidden"])}
     n_odd = int((weights["decoder.signs_out"] < 0).sum())
     basis = ModalBasis(weights["modes"].numpy(), n_odd, weights["scale"].numpy().astype(float) ** 2)
     model = Autoencoder(
-        facts["variant"], facts["latent_dim"], basis,
-        Scales(**facts["scales"]), AutoencoderSettings(**settings), facts["seed"],
+        facts["variant"],
+        facts["latent_dim"],
+        basis,
+        Scales(**facts["scales"]),
+        AutoencoderSettings(**settings),
+        facts["seed"],
     )
     model.load_state_dict(weights)
     return model

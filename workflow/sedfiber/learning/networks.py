@@ -8,6 +8,8 @@ component. From any perceptron f(x; b) the network
 satisfies g(S_in x; b) = S_out g(x; b) and g(0; b) = 0 exactly, for every set of weights.
 """
 
+from itertools import pairwise
+
 import torch
 from torch import Tensor, nn
 
@@ -15,7 +17,7 @@ from torch import Tensor, nn
 def perceptron(sizes: list[int], generator: torch.Generator) -> nn.Sequential:
     """Linear layers of ``sizes`` with tanh between them; Glorot normal weights, zero biases."""
     layers: list[nn.Module] = []
-    for n_in, n_out in zip(sizes[:-1], sizes[1:], strict=True):
+    for n_in, n_out in pairwise(sizes):
         layer = nn.Linear(n_in, n_out)
         nn.init.xavier_normal_(layer.weight, generator=generator)
         nn.init.zeros_(layer.bias)

@@ -1,7 +1,7 @@
 """Units of the reduced-order model: lengths in L/2, ℬ as a scaled logarithm.
 
-    X̌ = (X − c)/(L/2) − X̄_term/(L/2),        L/2 = N a
-    b = 2 (ln ℬ − ln ℬ_min)/(ln ℬ_max − ln ℬ_min) − 1,    with ℬ_min, ℬ_max of the training data
+X̌ = (X − c)/(L/2) − X̄_term/(L/2),        L/2 = N a
+b = 2 (ln ℬ − ln ℬ_min)/(ln ℬ_max − ln ℬ_min) − 1,    with ℬ_min, ℬ_max of the training data
 """
 
 from dataclasses import dataclass

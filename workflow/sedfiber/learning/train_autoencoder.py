@@ -12,7 +12,7 @@ from sedfiber._typing import Array
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.dataset import Dataset
 from sedfiber.learning.optimiser import Soap
-from sedfiber.learning.pod import ModalBasis, modal_basis
+from sedfiber.learning.pod import modal_basis
 from sedfiber.learning.sampling import path_even_indices
 from sedfiber.learning.scaling import Scales, residual_history
 from sedfiber.learning.settings import AutoencoderSettings
@@ -43,8 +43,7 @@ def path_even_residuals(training: Dataset, count: int) -> tuple[Array, Array]:
     """Residual shapes (S, 3N) and scaled ln ℬ (S, 1) of all trajectories, even along paths."""
     scales = Scales.of(training)
     residuals = [
-        residual_history(trajectory, scales)[path_even_indices(trajectory, scales, count)]
-        for trajectory in training
+        residual_history(trajectory, scales)[path_even_indices(trajectory, scales, count)] for trajectory in training
     ]
     b = np.repeat([scales.log_B(trajectory.B) for trajectory in training], count)
     return np.concatenate(residuals), b[:, None]

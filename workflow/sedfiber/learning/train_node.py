@@ -56,9 +56,7 @@ def train_node(
     return node
 
 
-def new_node(
-    samples: EncodedSamples, hidden: tuple[int, ...], damping: float, seed: int
-) -> NeuralOde:
+def new_node(samples: EncodedSamples, hidden: tuple[int, ...], damping: float, seed: int) -> NeuralOde:
     """An untrained neural ODE, scaled by the encoded training data."""
     h, rates, _ = samples.path_even()
     latent_scale, rate_scale = h.square().mean(0).sqrt(), rates.square().mean(0).sqrt()
@@ -82,9 +80,7 @@ def _match(
         rows = torch.randint(len(h), (settings.matching_batch_size,), generator=generator)
         error = node(h[rows], b[rows], node.rest(b[rows])) - rates[rows]
         loss = (weight[rows] * (error / node.rate_scale).square()).mean()
-        optimiser.learning_rate = cosine_rate(
-            settings.matching_learning_rate, step, settings.matching_iterations
-        )
+        optimiser.learning_rate = cosine_rate(settings.matching_learning_rate, step, settings.matching_iterations)
         line.update(step, descend(optimiser, loss, name))
 
 

@@ -86,6 +86,7 @@ def _one_step_loss(
     node: NeuralOde, h: Tensor, b: Tensor, target: Tensor, tau: Tensor, settings: SourceNodeSettings
 ) -> Tensor:
     rest, d = node.rest(b), node.latent_dim
+
     # In units of τ all pairs of the batch take one step of length 1.
     def rates(_: Tensor, state: Tensor) -> Tensor:
         return tau * node(state[:, :d], b, rest)

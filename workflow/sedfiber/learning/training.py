@@ -41,9 +41,7 @@ def descend(optimiser: Soap, loss: Tensor, where: str) -> float:
 def require_finite(loss: float, where: str) -> None:
     """Raise NumericalError when ``loss`` is NaN or infinite."""
     if not math.isfinite(loss):
-        raise NumericalError(
-            f"the loss became {loss} in {where}; try a smaller learning rate or another seed"
-        )
+        raise NumericalError(f"the loss became {loss} in {where}; try a smaller learning rate or another seed")
 
 
 class ProgressLine:

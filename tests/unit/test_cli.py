@@ -1,0 +1,245 @@
+"""The command: the public interface of issue 2, and one line for everything that is wrong."""
+
+import json
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from sedfiber import Scene, read_trajectory, simulate, steady_state
+from sedfiber.cli import COMMANDS, main
+
+OPTIONS = {"--B": "1000", "--theta0": "0.7854", "--n-beads": "11", "--t-end": "2"}
+SIMULATE = ["simulate", *(word for pair in OPTIONS.items() for word in pair)]
+
+
+def status_of(argv):
+    """Exit status of a command, whether it returns or the parser exits."""
+    try:
+        return main([str(word) for word in argv])
+    except SystemExit as end:
+        return end.code
+
+
+def complaint(capsys, argv, status=None):
+    """The one line on stderr of a command that must fail; nothing goes to stdout."""
+    code = status_of(argv)
+    said = capsys.readouterr()
+    assert code not in (0, None)
+    assert status is None or code == status
+    assert said.out == ""
+    assert said.err.count("\n") == 1
+    assert said.err.endswith("\n")
+    assert "Traceback" not in said.err
+    return said.err
+
+
+def test_simulate_writes_a_trajectory(tmp_path, capsys):
+    """`sedfiber simulate --B … --theta0 … -o FILE`: the same samples as the Python interface, and no chatter."""
+    path = tmp_path / "traj.parquet"
+    assert status_of([*SIMULATE, "-o", path]) == 0
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("", "")
+    run, direct = read_trajectory(path), simulate(Scene(1000, 0.7854, 11), t_end=2)
+    assert np.array_equal(run.positions, direct.positions)
+    assert run.metadata == direct.metadata | {"angle_index": None}
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_simulate_twice_gives_the_same_bytes(tmp_path):
+    """A rerun is byte-identical (DESIGN §3)."""
+    paths = [tmp_path / name for name in ("a.parquet", "b.parquet")]
+    for path in paths:
+        assert status_of([*SIMULATE, "-o", path]) == 0
+    assert paths[0].read_bytes() == paths[1].read_bytes()
+
+
+def test_simulate_passes_every_option_on(tmp_path):
+    """Each option reaches the scene or the numerics, as the metadata shows."""
+    path = tmp_path / "traj.parquet"
+    options = "--space volume --hydrodynamics RPY-overlap --tilt 2e-4 --seed 3 --integrator BDF --rtol 1e-7 --atol 1e-6"
+    argv = [*SIMULATE, *options.split(), "--interval", "0.25", "--max-time", "50", "-o", path]
+    assert status_of(argv) == 0
+    facts = read_trajectory(path).metadata
+    assert facts["scene"] == {
+        "B": 1000.0, "theta0": 0.7854, "n_beads": 11, "space": "volume", "hydrodynamics": "RPY-overlap",
+        "tilt": 2e-4, "seed": 3, "start_angle": 0.7854,
+    }  # fmt: skip
+    assert facts["numerics"] == {
+        "integrator": "BDF", "rtol": 1e-7, "atol": 1e-6, "interval": 0.25, "max_time": 50.0, "t_end": 2.0,
+    }  # fmt: skip
+
+
+def test_angle_index_stands_for_the_studys_grid(tmp_path):
+    """θ₀ = k π/48, recorded with k itself: names hold k, never a rounded angle."""
+    path = tmp_path / "traj.parquet"
+    argv = ["simulate", "--B", "1000", "--angle-index", "11", "--n-beads", "11", "--t-end", "1", "-o", path]
+    assert status_of(argv) == 0
+    facts = read_trajectory(path).metadata
+    assert facts["angle_index"] == 11
+    assert facts["scene"]["theta0"] == 11 * np.pi / 48
+
+
+@pytest.mark.parametrize(
+    "angle",
+    ["-0.5", pytest.param("-1e-4", marks=pytest.mark.xfail(strict=True, reason="argparse takes -1e-4 for an option"))],
+)
+def test_negative_angles_are_angles(tmp_path, angle):
+    """A leading minus is not taken for an option."""
+    path = tmp_path / "traj.parquet"
+    argv = ["simulate", "--B", "1000", "--theta0", angle, "--n-beads", "11", "--t-end", "1", "-o", path]
+    assert status_of(argv) == 0
+    assert read_trajectory(path).metadata["scene"]["theta0"] == float(angle)
+
+
+def test_steady_prints_one_json_object(capsys):
+    """`sedfiber steady --B 1000 --json`: the keys of issue 2 with the values of the Python interface."""
+    assert status_of(["steady", "--B", "1000", "--json"]) == 0
+    said = capsys.readouterr()
+    values, state = json.loads(said.out), steady_state(1000)
+    assert said.out.count("\n") == 1
+    assert said.err == ""
+    assert (values["B"], values["n_beads"]) == (1000.0, 31)
+    assert values["velocity"] == state.speed
+    assert values["height"] == state.height
+    assert values["end_to_end"] == state.end_to_end
+    assert values["residual"] <= 1e-10
+    assert values["B_force_consistent"] == pytest.approx(2000 / 3)
+    assert values["modulus"] == pytest.approx(714.984)
+    assert all(isinstance(value, int | float) for value in values.values())
+
+
+def test_steady_prints_the_same_for_people(capsys):
+    """Without --json: one line a key."""
+    assert status_of(["steady", "--B", "1000"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert {"B", "velocity", "height", "end_to_end"} <= {line.split()[0] for line in lines}
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "key"),
+    [
+        *[("--B", value, "B") for value in ("0", "-5", "nan", "inf", "1e400", "text", "")],
+        *[("--theta0", value, "theta0") for value in ("45", "nan", "inf", "steep")],
+        *[("--n-beads", value, "n_beads") for value in ("30", "1", "0", "-31", "3.5", "many")],
+        *[("--space", "line", "space"), ("--hydrodynamics", "Oseen", "hydrodynamics")],
+        *[("--integrator", "Euler", "integrator"), ("--integrator", "lsoda", "integrator")],
+        *[("--rtol", "0", "rtol"), ("--atol", "-1e-8", "atol"), ("--interval", "nan", "interval")],
+        *[("--t-end", "0", "t_end"), ("--t-end", "later", "t_end"), ("--max-time", "-1", "max_time")],
+        *[("--tilt", "1", "tilt"), ("--seed", "1.5", "seed")],
+    ],
+)
+def test_simulate_refuses_bad_values_by_name(tmp_path, capsys, option, value, key):
+    """One line with command, key, value and what is allowed; nothing is written."""
+    words = [f"{name}={text}" for name, text in (OPTIONS | {option: value}).items()]
+    line = complaint(capsys, ["simulate", *words, "-o", tmp_path / "x.parquet"], 1)
+    assert line.startswith(f"sedfiber simulate: {key}: ")
+    assert value in line
+    assert " is not allowed; give " in line
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("value", ["0", "-5", "nan", "inf", "text"])
+def test_steady_refuses_bad_numbers(capsys, value):
+    """The same line from the other command."""
+    assert complaint(capsys, ["steady", f"--B={value}", "--json"], 1).startswith(f"sedfiber steady: B: {value!r} is")
+
+
+@pytest.mark.parametrize(
+    ("argv", "named"),
+    [
+        ([], "COMMAND"),
+        (["nonsense"], "'nonsense'"),
+        (["--B", "1"], "COMMAND"),
+        (["simulate"], "--B"),
+        (["simulate", "--B", "1000", "--theta0", "0.5"], "-o/--output"),
+        (["simulate", "--B", "1000", "-o", "x"], "--theta0"),
+        ([*SIMULATE, "--angle-index", "3", "-o", "x"], "--angle-index"),
+        ([*SIMULATE, "-o", "x", "--colour", "red"], "--colour"),
+        ([*SIMULATE, "-o"], "-o/--output"),
+        (["steady", "--json"], "--B"),
+        (["steady", "--B", "1000", "extra"], "extra"),
+    ],
+)
+def test_bad_usage_is_one_line_with_status_two(capsys, tmp_path, monkeypatch, argv, named):
+    """Missing, unknown and contradicting options are named; no page of usage."""
+    monkeypatch.chdir(tmp_path)
+    assert named in complaint(capsys, argv, 2)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    "index",
+    ["-1", "2.5", "k", pytest.param("49", marks=pytest.mark.xfail(strict=True, reason="named as theta0 instead"))],
+)
+def test_angle_index_off_the_grid_is_refused(capsys, tmp_path, index):
+    """k is a whole number from 0 to 48, a half turn."""
+    argv = ["simulate", "--B", "1000", f"--angle-index={index}", "-o", tmp_path / "x.parquet"]
+    assert complaint(capsys, argv, 1).startswith(f"sedfiber simulate: angle_index: '{index}' is not allowed")
+
+
+def test_missing_output_folder_is_refused_before_the_work(capsys, tmp_path, monkeypatch):
+    """The folder is looked at before a step is taken."""
+    monkeypatch.setattr("sedfiber.commands.simulate.simulate", lambda *args: pytest.fail("it simulated first"))
+    line = complaint(capsys, [*SIMULATE, "-o", tmp_path / "none" / "x.parquet"], 1)
+    assert line.startswith("sedfiber simulate: output: ")
+    assert str(tmp_path / "none") in line
+
+
+def test_output_that_is_a_folder_is_refused(capsys, tmp_path):
+    """A folder is not overwritten, and stays empty."""
+    assert "is a folder" in complaint(capsys, [*SIMULATE, "-o", tmp_path], 1)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_output_folder_that_is_a_file_is_refused(capsys, tmp_path):
+    """FILE/x.parquet cannot exist; FILE is left as it was."""
+    file = tmp_path / "file"
+    file.write_text("mine")
+    assert str(file) in complaint(capsys, [*SIMULATE, "-o", file / "x.parquet"], 1)
+    assert file.read_text() == "mine"
+
+
+def test_numerical_failures_are_one_line(capsys, tmp_path):
+    """A stiff fiber with the explicit integrator: the reason, the advice, and no file."""
+    argv = ["simulate", "--B", "100", "--theta0", "0.5", "--integrator", "dopri5", "--interval", "5", "--t-end", "10"]
+    line = complaint(capsys, [*argv, "-o", tmp_path / "x.parquet"], 1)
+    assert "stiff" in line
+    assert "implicit" in line
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_help_lists_every_command(capsys):
+    """`sedfiber --help` names them all, with a summary each."""
+    assert status_of(["--help"]) == 0
+    said = capsys.readouterr().out
+    assert all(name in said for name in COMMANDS)
+
+
+def run_process(*argv, **options):
+    """The command in a process of its own, as a user or the workflow starts it."""
+    return subprocess.run([sys.executable, *argv], capture_output=True, text=True, timeout=120, check=False, **options)
+
+
+def test_module_is_the_command(tmp_path):
+    """`python -m sedfiber` passes the exit status on, both ways."""
+    good = run_process("-m", "sedfiber", "steady", "--B", "100", "--json")
+    assert good.returncode == 0
+    assert json.loads(good.stdout)["B"] == 100.0
+    bad = run_process("-m", "sedfiber", "simulate", "--B=-1", "--theta0", "0", "-o", "x.parquet", cwd=tmp_path)
+    assert bad.returncode == 1
+    assert bad.stderr.count("\n") == 1
+    assert bad.stderr.startswith("sedfiber simulate: B: '-1' is not allowed")
+    assert os.listdir(tmp_path) == []
+
+
+def test_simulation_imports_neither_torch_nor_pandas_nor_matplotlib(tmp_path):
+    """It runs 227 times; each of these costs more than a simulation (DESIGN §2)."""
+    program = (
+        "import sys; from sedfiber.cli import main; "
+        f"status = main({[*SIMULATE, '-o', str(tmp_path / 'x.parquet')]!r}); "
+        "heavy = {'torch', 'pandas', 'matplotlib', 'torchdiffeq'} & set(sys.modules); "
+        "print(status, sorted(heavy))"
+    )
+    assert run_process("-c", program).stdout == "0 []\n"
