@@ -123,15 +123,19 @@ def test_dopri5_is_right_where_it_finishes(B, t_end):
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
-@pytest.mark.parametrize(("B", "t_end"), [(100, 10.0), (1000, 100.0), (10000, 100.0)])
+@pytest.mark.parametrize(("B", "t_end"), [(100, 10.0), (1000, 100.0), (10000, 150.0)])
 @each_integrator
 def test_loose_tolerances_are_right_or_refused(integrator, B, t_end, tolerance):
-    """Within ten times the tolerance (in L) of the truth, or an error: never a wrong shape (issue 4 §2)."""
+    """Within ten times the tolerance (in L) of the truth, or an error: never a wrong shape (issue 4 §2).
+
+    dopri5 at 1e-2 and ℬ = 10000 stretches bonds ninefold with a good conscience; only the checks stop it.
+    """
     if integrator == "dopri5" and B < 10000:
-        t_end = min(t_end, 10.0)  # it crawls, and the shape is wrong long before
+        t_end = min(t_end, 10.0)  # it takes 2000 steps a unit of time there
+    theta0 = 11 * np.pi / 48
     try:
-        run = simulate(Scene(B, 0.7), Numerics(integrator, tolerance, tolerance), t_end=t_end)
+        run = simulate(Scene(B, theta0), Numerics(integrator, tolerance, tolerance), t_end=t_end)
     except NumericalError as error:
         assert "\n" not in str(error)
     else:
-        assert rms_distance(run.positions, truth(B, 0.7, t_end).positions, 62.0).max() < 10 * tolerance
+        assert rms_distance(run.positions, truth(B, theta0, t_end).positions, 62.0).max() < 10 * tolerance

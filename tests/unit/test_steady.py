@@ -75,10 +75,8 @@ def test_settled_run_ends_where_the_solver_says():
     assert -np.diff(run.centre[-2:, 1])[0] / 0.5 == pytest.approx(state.speed, rel=0.01)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="below ℬ = 0.3 the solver refuses, below 6e-4 its tolerance lets wrong shapes by"
-)
+@pytest.mark.xfail(strict=True, reason="round-off: refused below ℬ = 0.3, wrong shapes below 6e-4")
 @pytest.mark.parametrize("B", [0.1, 1e-2, 1e-4])
-def test_nearly_rigid_fibers_are_right_or_refused(B):
+def test_nearly_rigid_fibers_deflect_linearly(B):
     """Deflection is linear in ℬ there: 5.9134e-4 L per ℬ (tests/physics/test_terminal_shape.py)."""
     assert steady_state(B).height / (62.0 * B) == pytest.approx(5.9134e-4, rel=0.01)

@@ -48,7 +48,8 @@ def run(args: argparse.Namespace) -> None:
         for truth, shapes, path in zip(truths, args.shapes, paths, strict=True):
             _add(tables, who, truth, read_dataset(path, shapes))
     for name, parts in tables.items():
-        write_csv(pd.concat(parts, ignore_index=True), getattr(args, name))
+        table = pd.concat(parts, ignore_index=True).astype({"latent_dim": "Int64"})  # the lookup has none
+        write_csv(table, getattr(args, name))
 
 
 def _forecaster(words: list[str], n_splits: int) -> tuple[Forecaster, list[Path]]:

@@ -30,4 +30,5 @@ def run(args: argparse.Namespace) -> None:
     training = read_dataset(args.dataset, args.terminal_shapes)
     tests = [read_dataset(*pair) for pair in zip(args.test_datasets, args.test_shapes, strict=True)]
     models = [load_autoencoder(folder) for folder in args.models]
-    write_csv(pd.DataFrame(reconstruction_rows(models, training, tests)), args.output)
+    table = pd.DataFrame(reconstruction_rows(models, training, tests))
+    write_csv(table.astype({"seed": "Int64"}), args.output)  # POD has none

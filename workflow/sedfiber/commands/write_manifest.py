@@ -28,7 +28,7 @@ def run(args: argparse.Namespace) -> None:
     manifest = {
         "commit": args.commit,
         "config": json.loads(args.config),
-        "lock_file": {"path": str(args.lock), "sha256": _sha256(args.lock)},
+        "lock_file": {"name": args.lock.name, "sha256": _sha256(args.lock)},
         "machine": {"platform": platform.platform(), "processor": _processor()},
         "packages": _versions(args.lock),
         "python": platform.python_version(),

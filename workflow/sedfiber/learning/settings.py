@@ -44,22 +44,22 @@ class NodeSettings:
     samples_per_trajectory: int = 64
     """Samples of a trajectory that are matched and that segments start from, even along
     its path."""
-    matching_iterations: int = 4000
+    matching_iterations: int = 6000
     """Stage 1, steps of the optimiser."""
     matching_batch_size: int = 512
     """Stage 1, samples of one step."""
     matching_learning_rate: float = 1.0e-2
     """Stage 1, first learning rate; falls along half a cosine."""
-    rollout_lengths: tuple[int, ...] = (8, 24)
+    rollout_lengths: tuple[int, ...] = (8, 24, 64)
     """Stage 2, steps of the segments in each phase."""
-    rollout_iterations: tuple[int, ...] = (400, 300)
+    rollout_iterations: tuple[int, ...] = (500, 300, 300)
     """Stage 2, steps of the optimiser in each phase."""
     rollout_batch_steps: int = 6000
     """Stage 2, steps of all segments of a batch together."""
     rollout_learning_rate: float = 2.0e-3
     """Stage 2, first learning rate; falls along half a cosine over all phases."""
-    power: float = 1.0
-    """Stage 2, exponent of the power mean over the segments of a batch."""
+    power: float = 3.0
+    """Stage 2, exponent of the power mean of E along a segment."""
     start_share: float = 0.25
     """Stage 2, share of the segments that start at t = 0."""
     path_step: float = 0.08

@@ -14,7 +14,7 @@
        E = |ž − z|²/(4N) + |Δc|²/|c(t) − c(0)|²
 
    where modal coefficients in units of L/2 turn the first term into Σ_beads|ΔX̄|²/(N L²);
-   it is averaged along a segment and then by a power mean, which favours the worst ones.
+   its power mean along a segment, which favours the worst moments, is averaged.
 """
 
 import copy
@@ -32,6 +32,7 @@ from sedfiber.learning.segments import Segments, draw_segments
 from sedfiber.learning.settings import NodeSettings
 from sedfiber.learning.training import Progress, ProgressLine, cosine_rate, descend, silent
 
+ERROR_FLOOR = 1e-9  # keeps the root in the power mean smooth
 SPEED_FLOOR = 0.05  # ε, in units of the root-mean-square speed
 
 
@@ -108,8 +109,8 @@ class _Rollouts:
         line = ProgressLine(name, len(lengths), progress)
         for step, length in enumerate(lengths):
             optimiser.learning_rate = cosine_rate(settings.rollout_learning_rate, step, len(lengths))
-            error = self.errors(self.draw(length)).mean(dim=0)
-            loss = error.pow(settings.power).mean().pow(1 / settings.power)
+            error = self.errors(self.draw(length)) + ERROR_FLOOR
+            loss = error.pow(settings.power).mean(dim=0).pow(1 / settings.power).mean()
             line.update(step, descend(optimiser, loss, name))
 
     def draw(self, length: int) -> Segments:
