@@ -5,6 +5,7 @@ integrator asks of a system.  Add a problem to ``MOTIONS`` and every integrator 
 """
 
 import numpy as np
+
 from sedfiber.physics.assembly import assemble
 from sedfiber.physics.gravity import Gravity
 from sedfiber.physics.rpy import RotnePragerYamakawa

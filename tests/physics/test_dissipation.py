@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+
 import reference
 from problems import SCENES, bent_chain, system_of
 from sedfiber import Scene, simulate

@@ -5,6 +5,7 @@ from itertools import islice
 
 import numpy as np
 import pytest
+
 from problems import MOTIONS, FallingPair, Oscillator, Riccati, StiffTracking, rms_distance
 from sedfiber import NumericalError, Numerics, Scene, simulate
 from sedfiber.physics.integrators import INTEGRATORS, Tolerances

@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import reference
 from numpy.testing import assert_allclose
+
+import reference
 from problems import rms_distance, straight_chain
 from sedfiber import Scene, simulate, steady_state
 from sedfiber.physics.assembly import assemble

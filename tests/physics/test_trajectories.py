@@ -6,8 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import reference
 import yaml
+
+import reference
 from problems import rms_distance
 from sedfiber import Numerics, Scene, simulate
 from sedfiber.physics.assembly import assemble

@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-import reference
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+
+import reference
 from problems import bent_chain, random_rotation, straight_chain, taylor_slope
 from sedfiber.physics.bending import Bending
 from sedfiber.physics.gravity import Gravity

@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from problems import bent_chain, crumpled_chain, straight_chain, taylor_slope
 from pygrpy.grpy_tensors import muTT
+
+from problems import bent_chain, crumpled_chain, straight_chain, taylor_slope
 from reference import rpy
 from sedfiber.physics.pair_mobility import coefficients, smallest_gap
 from sedfiber.physics.rpy import RotnePragerYamakawa

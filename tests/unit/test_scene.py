@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+
 from sedfiber import InputError, Scene
 from sedfiber.physics.assembly import assemble
 

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+
 import sedfiber
 from sedfiber import InputError, NumericalError, Numerics, Scene, simulate, steady_state
 from sedfiber.physics.settling import SETTLED, distance_to_terminal

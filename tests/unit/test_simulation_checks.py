@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
 from problems import bent_chain, straight_chain, system_of
 from sedfiber import NumericalError, Scene, simulation
 from sedfiber.physics.checks import Checks, check

@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+
 import sedfiber
-from sedfiber import InputError, Scene, SteadyState, simulate, steady_state
+from sedfiber import InputError, NumericalError, Scene, SteadyState, simulate, steady_state
 
 
 def test_public_interface():
@@ -75,8 +76,13 @@ def test_settled_run_ends_where_the_solver_says():
     assert -np.diff(run.centre[-2:, 1])[0] / 0.5 == pytest.approx(state.speed, rel=0.01)
 
 
-@pytest.mark.xfail(strict=True, reason="round-off: refused below ℬ = 0.3, wrong shapes below 6e-4")
-@pytest.mark.parametrize("B", [0.1, 1e-2, 1e-4])
+@pytest.mark.parametrize("B", [0.1, 1e-2])
 def test_nearly_rigid_fibers_deflect_linearly(B):
     """Deflection is linear in ℬ there: 5.9134e-4 L per ℬ (tests/physics/test_terminal_shape.py)."""
     assert steady_state(B).height / (62.0 * B) == pytest.approx(5.9134e-4, rel=0.01)
+
+
+def test_a_fiber_too_stiff_for_double_precision_is_refused():
+    """At ℬ = 1e-6 round-off in the bonds exceeds the deflection: refused, not a wrong shape."""
+    with pytest.raises(NumericalError, match="try a larger B"):
+        steady_state(1e-6)

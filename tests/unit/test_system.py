@@ -2,10 +2,11 @@
 
 import numpy as np
 import pytest
-import reference
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
+
+import reference
 from problems import SCENES, bent_chain, crumpled_chain, straight_chain, system_of, taylor_slope
 from sedfiber.physics.gravity import Gravity
 from sedfiber.physics.system import System

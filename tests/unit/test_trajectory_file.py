@@ -4,6 +4,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+
 from sedfiber import InputError, Trajectory, read_trajectory, write_trajectory
 from sedfiber.atomic_file import replaced_when_done, require_writable, write_text
 from sedfiber.trajectory_file import METADATA_KEY, bead_count, coordinate_names
@@ -128,13 +129,11 @@ def test_empty_trajectory_is_refused(written):
     assert "not a trajectory" in refused(rewritten(written, lambda table: table.slice(0, 0)))
 
 
-@pytest.mark.xfail(strict=True, reason="read_table lets json.JSONDecodeError through")
 def test_damaged_metadata_is_refused(written):
     """Metadata that is not JSON is one line, not a traceback."""
     refused(rewritten(written, lambda table: table.replace_schema_metadata({METADATA_KEY: b"{not json"})))
 
 
-@pytest.mark.xfail(strict=True, reason="read_trajectory does not look at column types or nulls")
 @pytest.mark.parametrize("values", [["text"] * 40, [None] * 40], ids=["text", "null"])
 @pytest.mark.parametrize("column", ["t", "x0"])
 def test_columns_that_are_not_numbers_are_refused(written, column, values):
@@ -146,13 +145,11 @@ def _with_column(table, name, values):
     return table.set_column(table.column_names.index(name), name, pa.array(values))
 
 
-@pytest.mark.xfail(strict=True, reason="pyarrow reads a folder as a data set of all its files")
 def test_folder_is_refused(written):
     """A trajectory is one file."""
     refused(written.parent)
 
 
-@pytest.mark.xfail(strict=True, reason="pages are written without checksums: write_page_checksum=True would find it")
 def test_flipped_bits_never_change_a_number(trajectory, written):
     """A damaged byte anywhere is either harmless or refused; 200 seeded flips."""
     whole, rng = written.read_bytes(), np.random.default_rng(0)

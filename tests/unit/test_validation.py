@@ -5,6 +5,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from sedfiber.errors import InputError, SedfiberError
 from sedfiber.validation import finite_number, one_of, positive_number, whole_number
 

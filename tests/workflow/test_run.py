@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
+from workflow_helpers import results_of
 
 import sedfiber
-from workflow_helpers import results_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
 
@@ -111,7 +111,7 @@ def test_a_killed_job_leaves_nothing_that_a_rerun_takes_for_a_result(empty, verb
     victim = _wait_for_job(empty.folder, verb)
     os.kill(victim, signal.SIGKILL)
     assert run.wait(timeout=120) != 0
-    done = [path for path in (empty.folder / "results/trajectories").glob("*.parquet")]
+    done = list((empty.folder / "results/trajectories").glob("*.parquet"))
     for path in done:
         sedfiber.read_trajectory(path)  # whole, or not there
     again = empty.snakemake("-j2", "autoencoders")

@@ -1,6 +1,7 @@
 """The ``sedfiber`` command: one module of ``sedfiber.commands`` per verb."""
 
 import argparse
+import re
 import sys
 from importlib import import_module
 from typing import NoReturn
@@ -32,7 +33,12 @@ COMMANDS = {
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """An argument parser whose errors are one line."""
+    """An argument parser whose errors are one line, and to which -1e-4 is a number."""
+
+    def __init__(self, *args, **options):
+        super().__init__(*args, **options)
+        # argparse before Python 3.14 takes an exponent for an option's name
+        self._negative_number_matcher = re.compile(r"^-(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?$|^-inf$|^-nan$")
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {message}\n")

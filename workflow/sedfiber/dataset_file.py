@@ -10,7 +10,7 @@ import pyarrow.parquet as pq
 
 from sedfiber._typing import History, Times
 from sedfiber.atomic_file import replaced_when_done
-from sedfiber.trajectory_file import coordinate_columns
+from sedfiber.trajectory_file import WRITING, coordinate_columns
 
 
 class Labelled(Protocol):
@@ -41,4 +41,4 @@ def write_dataset(trajectories: Sequence[Labelled], path: Path) -> None:
     positions = np.concatenate([trajectory.positions for trajectory in trajectories])
     columns |= {name: pa.array(values) for name, values in coordinate_columns(positions).items()}
     with replaced_when_done(path) as partial:
-        pq.write_table(pa.table(columns), partial, compression="zstd")
+        pq.write_table(pa.table(columns), partial, **WRITING)

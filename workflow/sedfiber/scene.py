@@ -7,10 +7,11 @@ import numpy as np
 
 from sedfiber._typing import Positions
 from sedfiber.errors import InputError
-from sedfiber.validation import finite_number, one_of, positive_number, refused, whole_number
+from sedfiber.validation import number_within, one_of, positive_number, refused, whole_number
 
 SPACES = {"plane": 2, "volume": 3}
 HYDRODYNAMICS = ("RPY", "RPY-overlap")
+MOST_BEADS = 2001  # the dense Jacobian of more in volume would not fit in a few hundred MB
 
 
 @dataclass(frozen=True)
@@ -36,14 +37,14 @@ class Scene:
 
     def __post_init__(self) -> None:
         self._set("B", positive_number("B", self.B))
-        self._set("theta0", _number_within("theta0", self.theta0, -math.pi, math.pi, "radians between -π and π"))
-        odd = "an odd number from 3 up"
-        self._set("n_beads", whole_number("n_beads", self.n_beads, odd, 3))
+        self._set("theta0", number_within("theta0", self.theta0, -math.pi, math.pi, "radians between -π and π"))
+        odd = f"an odd number from 3 to {MOST_BEADS}"
+        self._set("n_beads", whole_number("n_beads", self.n_beads, odd, 3, MOST_BEADS))
         if self.n_beads % 2 == 0:
             raise refused("n_beads", self.n_beads, odd)
         one_of("space", self.space, SPACES)
         one_of("hydrodynamics", self.hydrodynamics, HYDRODYNAMICS)
-        self._set("tilt", _number_within("tilt", self.tilt, 0.0, 0.1, "radians between 0 and 0.1"))
+        self._set("tilt", number_within("tilt", self.tilt, 0.0, 0.1, "radians between 0 and 0.1"))
         self._set("seed", whole_number("seed", self.seed, "a whole number from 0 up"))
 
     def _set(self, key: str, value: float) -> None:
@@ -100,10 +101,3 @@ class Scene:
             what = "unknown key" if unknown else "missing key"
             raise InputError(f"scene: {what} {name!r}; keys are {', '.join(cls.__dataclass_fields__)}")
         return cls(**values)
-
-
-def _number_within(key: str, value: float, low: float, high: float, allowed: str) -> float:
-    number = finite_number(key, value, allowed)
-    if not low <= number <= high:
-        raise refused(key, value, allowed)
-    return number

@@ -14,7 +14,7 @@ from sedfiber.physics.steady import steady_state
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
 from sedfiber.trajectory import Trajectory
-from sedfiber.validation import one_of, positive_number
+from sedfiber.validation import number_within, one_of, positive_number
 
 # Against Radau at 1e-10, over a third of the study's runs: LSODA at 1e-8 is within 1.2e-6 L at
 # all times and the fastest; BDF needs 1.4 and Radau 1.9 times as long for the same worst error.
@@ -40,7 +40,10 @@ class Numerics:
 
     def __post_init__(self) -> None:
         one_of("integrator", self.integrator, INTEGRATORS)
-        for key in ("rtol", "atol", "interval", "max_time"):
+        for key in ("rtol", "atol"):
+            tolerance = number_within(key, getattr(self, key), 1e-13, 0.1, "a number from 1e-13 to 0.1")
+            object.__setattr__(self, key, tolerance)
+        for key in ("interval", "max_time"):
             object.__setattr__(self, key, positive_number(key, getattr(self, key)))
 
     def march(self, system: System) -> March:

@@ -13,6 +13,7 @@ from sedfiber.errors import InputError
 from sedfiber.trajectory import Trajectory
 
 METADATA_KEY = b"sedfiber"
+WRITING = {"compression": "zstd", "write_page_checksum": True}  # a flipped bit is found on reading
 
 
 def coordinate_names(n_beads: int) -> list[str]:
@@ -32,7 +33,7 @@ def write_table(path: Path, columns: dict[str, np.ndarray], metadata: dict) -> N
     arrays = [_arrow_array(values) for values in columns.values()]
     table = pa.Table.from_arrays(arrays, names=list(columns), metadata={METADATA_KEY: facts.encode()})
     with replaced_when_done(path) as partial:
-        pq.write_table(table, partial, compression="zstd")
+        pq.write_table(table, partial, **WRITING)
 
 
 def _arrow_array(values: np.ndarray) -> pa.Array:
@@ -43,16 +44,18 @@ def _arrow_array(values: np.ndarray) -> pa.Array:
 
 def read_table(path: Path) -> tuple[pa.Table, dict]:
     """The table and its metadata; raises InputError for anything that is not such a file."""
+    if path.is_dir():
+        raise InputError(f"input: {str(path)!r} is a folder; give the path of a file")
     try:
-        table = pq.read_table(path)
+        table = pq.read_table(path, page_checksum_verification=True)
+        facts = json.loads((table.schema.metadata or {})[METADATA_KEY])
     except FileNotFoundError:
         raise InputError(f"input: {str(path)!r} does not exist") from None
-    except (pa.ArrowException, OSError):
+    except KeyError:
+        raise InputError(f"input: {str(path)!r} was not written by sedfiber (no metadata)") from None
+    except (pa.ArrowException, OSError, ValueError):
         raise InputError(f"input: {str(path)!r} is not a readable Parquet file (damaged or truncated?)") from None
-    facts = (table.schema.metadata or {}).get(METADATA_KEY)
-    if facts is None:
-        raise InputError(f"input: {str(path)!r} was not written by sedfiber (no metadata)")
-    return table, json.loads(facts)
+    return table, facts
 
 
 def coordinate_columns(positions: Positions) -> dict[str, np.ndarray]:
@@ -77,6 +80,13 @@ def write_trajectory(trajectory: Trajectory, path: str | Path) -> None:
 def read_trajectory(path: str | Path) -> Trajectory:
     """Read a trajectory; raises InputError when the file is missing, damaged or incomplete."""
     table, metadata = read_table(Path(path))
-    if "t" not in table.column_names or bead_count(table.column_names) == 0 or table.num_rows == 0:
-        raise InputError(f"input: {str(path)!r} is not a trajectory (columns t, x0, y0, z0, … expected)")
+    if not _is_trajectory(table):
+        raise InputError(f"input: {str(path)!r} is not a trajectory (numbers in t, x0, y0, z0, … expected)")
     return Trajectory(table.column("t").to_numpy(), positions_of(table), metadata)
+
+
+def _is_trajectory(table: pa.Table) -> bool:
+    names = ["t", *coordinate_names(bead_count(table.column_names))]
+    if len(names) == 1 or "t" not in table.column_names or table.num_rows == 0:
+        return False
+    return all(table.column(name).type == pa.float64() and table.column(name).null_count == 0 for name in names)

@@ -28,12 +28,20 @@ def positive_number(key: str, value: Any, allowed: str = "a finite number above 
     return number
 
 
-def whole_number(key: str, value: Any, allowed: str, least: int = 0) -> int:
-    """``value`` as an int of at least ``least``, or InputError."""
+def whole_number(key: str, value: Any, allowed: str, least: int = 0, most: float = math.inf) -> int:
+    """``value`` as an int from ``least`` to ``most``, or InputError."""
     number = finite_number(key, value, allowed)
-    if number != int(number) or number < least:
+    if number != int(number) or not least <= number <= most:
         raise refused(key, value, allowed)
     return int(number)
+
+
+def number_within(key: str, value: Any, low: float, high: float, allowed: str) -> float:
+    """``value`` as a float from ``low`` to ``high``, or InputError."""
+    number = finite_number(key, value, allowed)
+    if not low <= number <= high:
+        raise refused(key, value, allowed)
+    return number
 
 
 def one_of(key: str, value: Any, choices: Iterable[str]) -> str:

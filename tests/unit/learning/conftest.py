@@ -2,8 +2,9 @@
 
 import pytest
 import torch
-from sedfiber.learning.dataset import Dataset
 from tiny_fiber import TRAINED, settling
+
+from sedfiber.learning.dataset import Dataset
 
 
 @pytest.fixture(autouse=True)

@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
+from tiny_fiber import settling
+
 from sedfiber.errors import InputError
 from sedfiber.learning.dataset import Dataset
 from sedfiber.learning.lookup import LookupTable, spline_weights
-from tiny_fiber import settling
 
 
 def test_exact_at_the_nodes(training):

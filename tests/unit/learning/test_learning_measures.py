@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from sedfiber.errors import InputError
 from sedfiber.learning.measures import ensemble_mean, forecast_error, reconstruction_errors
 

@@ -2,6 +2,8 @@ import json
 
 import numpy as np
 import pytest
+from tiny_fiber import settling
+
 from sedfiber.errors import InputError
 from sedfiber.learning.forecast import ForecastModel, Start
 from sedfiber.learning.model_files import (
@@ -13,7 +15,6 @@ from sedfiber.learning.model_files import (
 from sedfiber.learning.settings import AutoencoderSettings, NodeSettings
 from sedfiber.learning.train_autoencoder import train_autoencoder
 from sedfiber.learning.train_node import train_node
-from tiny_fiber import settling
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(8,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=10

@@ -1,5 +1,6 @@
 import pytest
 import torch
+
 from sedfiber.learning.networks import MirrorNetwork
 
 SIGNS_IN = torch.tensor([-1.0, -1.0, 1.0])

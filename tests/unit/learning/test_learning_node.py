@@ -2,6 +2,8 @@ import numpy as np
 import pytest
 import torch
 from scipy.integrate import solve_ivp
+from tiny_fiber import settling
+
 from sedfiber.errors import InputError
 from sedfiber.learning.forecast import ForecastModel, Start
 from sedfiber.learning.measures import forecast_error
@@ -13,7 +15,6 @@ from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, Source
 from sedfiber.learning.train_autoencoder import train_autoencoder
 from sedfiber.learning.train_node import train_node
 from sedfiber.learning.train_node_source import train_node_source
-from tiny_fiber import settling
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(16,), modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=400

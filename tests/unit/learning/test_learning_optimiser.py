@@ -1,4 +1,5 @@
 import torch
+
 from sedfiber.learning.optimiser import Soap
 from sedfiber.learning.training import cosine_rate
 

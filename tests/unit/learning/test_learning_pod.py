@@ -1,9 +1,10 @@
 import numpy as np
 import pytest
+from tiny_fiber import N_BEADS
+
 from sedfiber.learning.dataset import mirrored
 from sedfiber.learning.pod import modal_basis, pod_basis
 from sedfiber.learning.train_autoencoder import path_even_residuals
-from tiny_fiber import N_BEADS
 
 
 @pytest.fixture

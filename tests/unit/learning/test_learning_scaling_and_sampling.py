@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
+from tiny_fiber import N_BEADS
+
 from sedfiber.learning.sampling import path_coordinate, path_even_indices
 from sedfiber.learning.scaling import Scales, residual_history
-from tiny_fiber import N_BEADS
 
 
 def test_scaled_log_spans_the_training_range(training):

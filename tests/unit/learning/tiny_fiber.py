@@ -1,6 +1,7 @@
 """A tiny settling fiber with a known history: it rotates to horizontal and bends to a U."""
 
 import numpy as np
+
 from sedfiber.learning.dataset import Trajectory
 
 N_BEADS = 5

@@ -56,4 +56,5 @@ def _given(args: argparse.Namespace, kind: type) -> dict:
 
 def _angle_index(value: str) -> int:
     """k in θ₀ = k π/48; files and keys hold k, never a rounded angle."""
-    return whole_number("angle_index", value, f"a whole number from 0 to {ANGLES_PER_HALF_TURN}")
+    most = ANGLES_PER_HALF_TURN
+    return whole_number("angle_index", value, f"a whole number from 0 to {most}", 0, most)

@@ -22,6 +22,8 @@ TOLERANCE = 1e-10  # on the largest relative bead speed, in U_s
 _MAX_NEWTON = 12
 _FIRST_STEP, _LAST_STEP = 0.2, 1e-4  # in log ℬ
 _LARGEST_CORRECTION = 0.02  # of L, by which Newton may move a bead from the prediction
+_LAST_CORRECTION = 1e-5  # of the height, by which the last Newton step may still move a bead
+_POLISHED = 3  # converged iterates to choose from
 
 
 @dataclass(frozen=True)
@@ -74,7 +76,10 @@ def _follow_branch(scene: Scene, target: float) -> Positions:
     at, goal, step = np.log(scene.B), np.log(target), _FIRST_STEP
     x, slope = _solve(scene, scene.start()), 0.0
     if x is None:
-        raise NumericalError(f"steady: Newton found no nearly straight state at B={scene.B:g}")
+        raise NumericalError(
+            f"steady: no nearly straight state found at B={scene.B:g} with {scene.n_beads} beads; "
+            "a fiber so stiff is rigid and round-off hides its balance, try a larger B"
+        )
     while at < goal:
         ahead = min(at + step, goal)
         predicted = x + slope * (ahead - at)
@@ -90,20 +95,28 @@ def _follow_branch(scene: Scene, target: float) -> Positions:
 
 
 def _solve(scene: Scene, guess: Positions) -> Positions | None:
-    """Newton from a guess to round-off; None when it does not get below the tolerance."""
+    """Newton from a guess to round-off; None when it does not get there.
+
+    Converged means: the balance holds to the tolerance plus round-off, and the last step was
+    a negligible part of the deflection (for a very stiff fiber round-off hides the balance).
+    Of a few such iterates the one with the smallest residual is taken.
+    """
     system = assemble(scene)
     # differences of coordinates of size N carry a round-off of eps·N, times the modulus
     noise = np.finfo(float).eps * scene.n_beads * scene.modulus
-    x, best = guess, np.inf
+    x, converged = guess, []
     for _ in range(_MAX_NEWTON):
         _, residual = _relative_speeds(system, x)
-        size = np.abs(residual).max()
-        if not np.isfinite(size) or size < 1e-3 * TOLERANCE or (size >= best and best < TOLERANCE + noise):
+        size = float(np.abs(residual).max())
+        if not np.isfinite(size):
+            return None
+        step = _newton_step(system, x, residual)
+        if size < TOLERANCE + noise and np.abs(step).max() < _LAST_CORRECTION * np.ptp(x[:, 1]):
+            converged.append((size, x))
+        if len(converged) == _POLISHED or (converged and size < 1e-2 * TOLERANCE):
             break
-        best = min(best, size)
-        x = x - _newton_step(system, x, residual)
-    _, residual = _relative_speeds(system, x)
-    return x if np.abs(residual).max() < TOLERANCE + noise else None
+        x = x - step
+    return min(converged, key=lambda pair: pair[0])[1] if converged else None
 
 
 def _relative_speeds(system: System, x: Positions) -> tuple[Positions, Positions]:

@@ -9,6 +9,8 @@ from sedfiber._typing import State
 from sedfiber.physics.integrators.base import March
 
 _MAX_STEPS_PER_SAMPLE = 20_000
+# of the sampling interval; left to itself, LSODA jumps to the end where nothing moves at first
+_FIRST_STEP = 1e-4
 
 
 class _SciPyMarch(March):
@@ -22,6 +24,7 @@ class _SciPyMarch(March):
             0.0,
             start,
             np.inf,
+            first_step=_FIRST_STEP * interval,
             rtol=self.tolerances.rtol,
             atol=self.tolerances.atol,
             jac=self.system.jacobian,
