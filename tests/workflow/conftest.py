@@ -26,7 +26,7 @@ class Checkout:
 
     def planned(self, *words: str) -> dict[str, int]:
         """Number of jobs of each rule that a run would start; target rules are left out."""
-        run = self.snakemake("--dry-run", "--quiet", "rules", *words)
+        run = self.snakemake(*words, "--dry-run", "--quiet", "rules")
         assert run.returncode == 0, run.stdout + run.stderr
         text = run.stdout + run.stderr
         jobs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)}

@@ -46,7 +46,8 @@ def test_the_manifest_names_every_result_with_its_checksum(finished):
     manifest = json.loads((finished.folder / "results/manifest.json").read_text())
     assert manifest["config"]["scene"]["n_beads"] == 7
     assert manifest["packages"]["numpy"] and manifest["packages"]["torch"]
-    assert "simulate" in manifest["rule_graph"] and "->" in manifest["rule_graph"]
+    assert "simulate -> aggregate_dataset" in manifest["rule_graph"]
+    assert "train_autoencoder -> train_node" in manifest["rule_graph"]
     for path, digest in manifest["sha256"].items():
         assert hashlib.sha256((finished.folder / path).read_bytes()).hexdigest() == digest
     assert len(manifest["sha256"]) > 50

@@ -32,8 +32,7 @@ rule write_manifest:
         timings=rules.tabulate_timings.output,
         lock=here(BASE / "envs/requirements.lock"),
     output:
-        manifest="results/manifest.json",
-        graph="results/rule_graph.dot",
+        "results/manifest.json",
     log:
         "results/logs/write_manifest.log",
     benchmark:
@@ -53,7 +52,6 @@ rule write_manifest:
         "record where every result comes from"
     shell:
         "snakemake --snakefile {params.snakefile} --configfile {params.configfiles}"
-        " --rulegraph dot > {output.graph} 2> {log} && "
+        " --rulegraph dot 2> {log} | "
         "sedfiber write_manifest --config {params.config:q} --commit {params.commit} --lock {input.lock}"
-        " --rule-graph {output.graph} --outputs {input.results} {input.timings}"
-        " -o {output.manifest} >> {log} 2>&1"
+        " --rule-graph - --outputs {input.results} {input.timings} -o {output} >> {log} 2>&1"

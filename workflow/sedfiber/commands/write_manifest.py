@@ -17,7 +17,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--config", required=True, help="the whole configuration, JSON")
     parser.add_argument("--lock", type=Path, required=True, help="lock file")
     parser.add_argument("--commit", required=True, help="commit of the code, as git describes it")
-    parser.add_argument("--rule-graph", type=Path, required=True, help="what snakemake --rulegraph printed")
+    parser.add_argument(
+        "--rule-graph", type=argparse.FileType(), required=True, help="what snakemake --rulegraph dot printed, or -"
+    )
     parser.add_argument("--outputs", nargs="+", type=Path, required=True, help="files to checksum")
     parser.add_argument("-o", "--output", type=Path, required=True, help="JSON file to write")
 
@@ -32,10 +34,17 @@ def run(args: argparse.Namespace) -> None:
         "machine": {"platform": platform.platform(), "processor": _processor()},
         "packages": _versions(args.lock),
         "python": platform.python_version(),
-        "rule_graph": args.rule_graph.read_text(encoding="utf-8"),
+        "rule_graph": _edges(args.rule_graph.read()),
         "sha256": {str(path): _sha256(path) for path in sorted(args.outputs)},
     }
     write_text(args.output, json.dumps(manifest, indent=2, sort_keys=True, ensure_ascii=False) + "\n")
+
+
+def _edges(dot: str) -> list[str]:
+    """``rule -> rule that uses it``, sorted: Snakemake numbers the nodes anew each time."""
+    names = dict(re.findall(r'^\s*(\d+)\[label = "(\w+)"', dot, re.MULTILINE))
+    pairs = re.findall(r"^\s*(\d+) -> (\d+)", dot, re.MULTILINE)
+    return sorted(f"{names[made]} -> {names[used]}" for made, used in pairs)
 
 
 def _sha256(path: Path) -> str:
