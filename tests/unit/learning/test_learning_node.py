@@ -41,31 +41,31 @@ def node():
 
 
 def test_terminal_state_is_a_fixed_point_that_falls_steadily(node):
-    b = torch.tensor([[-1.0], [0.3]], dtype=torch.float64)
-    assert node(torch.zeros(2, 2, dtype=torch.float64), b, node.rest(b)).abs().max() < 1e-15
+    context = torch.tensor([[-1.0, 0, 0.1], [0.3, 0, 0.4]], dtype=torch.float64)
+    assert node(torch.zeros(2, 2, dtype=torch.float64), context, node.rest(context)).abs().max() < 1e-15
 
 
 def test_damping_is_subtracted(node):
-    h, b = torch.tensor([[0.3, -0.2]], dtype=torch.float64), torch.zeros(1, 1, dtype=torch.float64)
-    damped = node(h, b, node.rest(b))
+    h, context = torch.tensor([[0.3, -0.2]], dtype=torch.float64), torch.zeros(1, 3, dtype=torch.float64)
+    damped = node(h, context, node.rest(context))
     node.damping.zero_()
     expected = torch.tensor([[0.1 * 0.5 * 0.3, 0.1 * 0.2 * -0.2, 0, 0]], dtype=torch.float64)
-    torch.testing.assert_close(node(h, b, node.rest(b)) - damped, expected, atol=1e-8, rtol=0)
+    torch.testing.assert_close(node(h, context, node.rest(context)) - damped, expected, atol=1e-8, rtol=0)
 
 
 def test_rollout_converges_with_order_four(node):
-    h, b = torch.tensor([[0.4, 0.3]], dtype=torch.float64), torch.tensor([[0.2]], dtype=torch.float64)
+    h, context = torch.tensor([[0.4, 0.3]], dtype=torch.float64), torch.tensor([[0.2, 0, 0.1]], dtype=torch.float64)
 
     def rates(_, y):
         with torch.no_grad():
-            return node(torch.tensor(y[None, :2]), b, node.rest(b))[0].numpy()
+            return node(torch.tensor(y[None, :2]), context, node.rest(context))[0].numpy()
 
     exact = solve_ivp(rates, (0, 8), [0.4, 0.3, 0, 0], rtol=1e-12, atol=1e-13).y[:, -1]
 
     def error(n):
         steps = torch.full((n, 1), 8.0 / n, dtype=torch.float64)
         with torch.no_grad():
-            states = torch.cat([part[-1, 0] for part in roll_out(node, h, b, steps)])
+            states = torch.cat([part[-1, 0] for part in roll_out(node, h, context, steps)])
         return np.linalg.norm(states.numpy() - exact)
 
     slope = np.log2(error(8) / error(16))

@@ -9,7 +9,7 @@ from sedfiber.learning.train_autoencoder import path_even_residuals
 
 @pytest.fixture
 def residuals(training):
-    return path_even_residuals(training, 12)[0]
+    return path_even_residuals(training, 12)
 
 
 def test_modes_are_orthonormal(residuals):

@@ -1,15 +1,20 @@
 """The autoencoder of residual shapes.
 
-    z = Φ X̌                     modal coefficients, Φ fixed: POD modes of the training set
-    h = (P + Q(b)) z             encoder,  E(0) = 0
-    ž = P₀ᵀ h + σ g(h; b)        decoder,  D(0; ℬ) = 0
+    z = Φ X̌                          modal coefficients, Φ fixed: POD modes of the training set
+    h = (P + Q(b)) z                  encoder,  E(0) = 0
+    ž = P₀ᵀ h + σ g(h; h_term, b)     decoder,  D(0; ℬ) = 0
     X̌ ≈ Φᵀ ž
 
 P is trained, Q(b) too and only where the variant gives ℬ to the encoder; both keep odd and
 even modes apart. P₀ picks the leading odd and even modes, σ² are the modes' energies, g is a
-mirror-symmetric network that vanishes at rest (`networks`), with b, the scaled ln ℬ, as an
-input where the variant says so. The first ⌈d/2⌉ latent variables are odd under the mirror,
-the others even.
+mirror-symmetric network that vanishes at rest (`networks`). The first ⌈d/2⌉ latent variables
+are odd under the mirror, the others even.
+
+Where the variant gives ℬ to the decoder, g has two more inputs: b, the scaled ln ℬ, and
+h_term = (P + Q(b)) Φ X̄_term(ℬ), the terminal shape's own place in latent space. h + h_term is
+the place of the whole shape: a straight fiber has the same at every ℬ, so that little is left
+to interpolate in ℬ. Measured with ℬ = 200 held out of the training, d = 2: reconstruction
+loss there 3.8e-5, and 3.8e-2 with b alone.
 
 The encoder is linear in the shape. Measured at d = 3 and 4 with one training ℬ held out: a
 nonlinear encoder reconstructs no better, while the paths h(t) bend more, the rates of the
@@ -20,6 +25,7 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
+from sedfiber._typing import Positions
 from sedfiber.errors import InputError
 from sedfiber.learning.networks import MirrorNetwork, perceptron
 from sedfiber.learning.pod import ModalBasis
@@ -57,7 +63,7 @@ class LinearEncoder(nn.Module):
 
 
 class Autoencoder(nn.Module):
-    """Encoder and decoder; inputs are residual shapes X̌ (S, 3N) and scaled ln ℬ (S, 1).
+    """Encoder and decoder of residual shapes X̌ (S, 3N), given their context [b, h_term] (S, 1 + d).
 
     Raises InputError for an unknown variant.
     """
@@ -92,22 +98,32 @@ class Autoencoder(nn.Module):
         """z = Φ X̌: (S, 3N) gives (S, r)."""
         return residual @ self.modes.T
 
-    def encode_modal(self, z: Tensor, b: Tensor) -> Tensor:
+    def encode_modal(self, z: Tensor, context: Tensor) -> Tensor:
         """h from modal coefficients: (S, r) gives (S, d)."""
-        return self.encoder(z, b)
+        return self.encoder(z, context[:, :1])
 
-    def decode_modal(self, h: Tensor, b: Tensor) -> Tensor:
+    def decode_modal(self, h: Tensor, context: Tensor) -> Tensor:
         """Modal coefficients from h: (S, d) gives (S, r)."""
-        b = b if self.decoder_sees_B else b[:, :0]
-        return h @ self.pick + self.scale * self.decoder(h, b, self.decoder.rest(b))
+        context = context if self.decoder_sees_B else context[:, :0]
+        return h @ self.pick + self.scale * self.decoder(h, context, self.decoder.rest(context))
 
-    def encode(self, residual: Tensor, b: Tensor) -> Tensor:
+    def context(self, b: Tensor, terminal: Tensor) -> Tensor:
+        """[b, h_term] (S, 1 + d) from b (S, 1) and the terminal shapes' modal coefficients (S, r)."""
+        return torch.cat([b, self.encoder(terminal, b)], dim=1)
+
+    def context_of(self, B: float, terminal: Positions) -> Tensor:
+        """[b, h_term] (1, 1 + d) for one ℬ, terminal shape (N, 3) in ``a``; a float64 model's."""
+        b = torch.tensor([[float(self.scales.log_B(B))]], dtype=torch.float64)
+        with torch.no_grad():
+            return self.context(b, self.modal(torch.tensor(terminal.reshape(1, -1) / self.scales.half_length)))
+
+    def encode(self, residual: Tensor, context: Tensor) -> Tensor:
         """h = E(X̌; ℬ): (S, 3N) gives (S, d)."""
-        return self.encode_modal(self.modal(residual), b)
+        return self.encode_modal(self.modal(residual), context)
 
-    def decode(self, h: Tensor, b: Tensor) -> Tensor:
+    def decode(self, h: Tensor, context: Tensor) -> Tensor:
         """X̌ = D(h; ℬ): (S, d) gives (S, 3N)."""
-        return self.decode_modal(h, b) @ self.modes
+        return self.decode_modal(h, context) @ self.modes
 
 
 def _leading_modes(modal: Tensor, latent: Tensor) -> Tensor:

@@ -71,20 +71,20 @@ class ForecastModel:
         when the integration fails.
         """
         self._check(starts, t)
-        b = torch.tensor([[float(self.scales.log_B(start.B))] for start in starts], dtype=torch.float64)
-        h, drift = self._integrate(self._latent(starts, b), b, t)
-        residual = self._encoder.decode(h.flatten(0, 1), b.expand(len(t), -1, -1).flatten(0, 1))
+        context = torch.cat([self._encoder.context_of(start.B, start.terminal) for start in starts])
+        h, drift = self._integrate(self._latent(starts, context), context, t)
+        residual = self._encoder.decode(h.flatten(0, 1), context.expand(len(t), -1, -1).flatten(0, 1))
         residual = residual.unflatten(0, h.shape[:2]).transpose(0, 1).numpy()
         drift = nn.functional.pad(drift, (0, 3 - N_CENTRE)).transpose(0, 1).numpy()
         return np.stack([self._assemble(*parts, t) for parts in zip(starts, residual, drift, strict=True)])
 
-    def _latent(self, starts: Sequence[Start], b: Tensor) -> Tensor:
+    def _latent(self, starts: Sequence[Start], context: Tensor) -> Tensor:
         residual = np.stack([self.scales.residual(start.initial, start.terminal) for start in starts])
-        return self._encoder.encode(torch.tensor(residual), b)
+        return self._encoder.encode(torch.tensor(residual), context)
 
-    def _integrate(self, h: Tensor, b: Tensor, t: Times) -> tuple[Tensor, Tensor]:
+    def _integrate(self, h: Tensor, context: Tensor, t: Times) -> tuple[Tensor, Tensor]:
         """h (T, S, d) and the drift c − c(0) − U_term t, (T, S, 2)."""
-        d, rest = h.shape[1], self._node.rest(b)
+        d, rest = h.shape[1], self._node.rest(context)
         state = nn.functional.pad(h, (0, N_CENTRE))
         skipped = 0 if t[0] == 0 else 1
         times = torch.tensor(np.concatenate([np.zeros(skipped), t]))
@@ -92,7 +92,7 @@ class ForecastModel:
             return state[None, :, :d], state[None, :, d:]
         try:
             states = odeint(
-                lambda _, y: self._node(y[:, :d], b, rest),
+                lambda _, y: self._node(y[:, :d], context, rest),
                 state,
                 times,
                 rtol=self.rtol,

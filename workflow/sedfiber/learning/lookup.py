@@ -8,7 +8,7 @@ has ended is carried on by its last shape falling with the steady velocity.
 import numpy as np
 from scipy.interpolate import make_interp_spline
 
-from sedfiber._typing import Array, History, Times
+from sedfiber._typing import Array, History, Positions, Times
 from sedfiber.errors import InputError
 from sedfiber.learning.dataset import Dataset, Trajectory
 
@@ -26,21 +26,24 @@ class LookupTable:
         entries = {(trajectory.B, trajectory.theta0): trajectory for trajectory in training}
         if len(entries) != len(self.log_B) * len(self.theta0):
             raise InputError("the lookup baseline needs every training B at every training theta0")
+        velocities = {trajectory.B: trajectory.terminal_velocity for trajectory in training}
+        self.velocities = np.array([velocities[B] for B in training.B_values])
         self.table = np.stack(
             [np.stack([_extended(entries[B, theta0], self.t) for theta0 in self.theta0]) for B in training.B_values]
         )
 
     def forecast(self, B: float, theta0: float, t: Times) -> History:
-        """Positions (T, N, 3) at the sample times ``t`` (T,), which the table must hold.
+        """Positions (T, N, 3) at the sample times ``t`` (T,); past the table's end the last shape falls.
 
-        Raises InputError for times that are not samples of the longest training trajectory.
+        Raises InputError for times that are not the training data's sample times.
         """
-        n = len(t)
-        if n > len(self.t) or not np.allclose(t, self.t[:n], rtol=0, atol=1e-9):
+        n = min(len(t), len(self.t))
+        if not np.allclose(t[:n], self.t[:n], rtol=0, atol=1e-9):
             raise InputError("the lookup baseline knows only the sample times of the training data")
         over_B = spline_weights(self.log_B, np.log(B))
         over_theta0 = spline_weights(self.theta0, theta0)
-        return np.einsum("i,j,ij...->...", over_B, over_theta0, self.table[:, :, :n])
+        known = np.einsum("i,j,ij...->...", over_B, over_theta0, self.table[:, :, :n])
+        return np.concatenate([known, _falling(known[-1], over_B @ self.velocities, t[n:] - t[n - 1])])
 
 
 def spline_weights(nodes: Array, x: float) -> Array:
@@ -57,5 +60,10 @@ def _extended(trajectory: Trajectory, t: Times) -> Array:
     n = len(trajectory.t)
     if not np.allclose(trajectory.t, t[:n], rtol=0, atol=1e-9):
         raise InputError(f"the trajectory with {trajectory.name} has other sample times")
-    later = (t[n:] - trajectory.t[-1])[:, None, None] * trajectory.terminal_velocity
-    return np.concatenate([trajectory.positions, trajectory.positions[-1] + later])
+    later = _falling(trajectory.positions[-1], trajectory.terminal_velocity, t[n:] - trajectory.t[-1])
+    return np.concatenate([trajectory.positions, later])
+
+
+def _falling(shape: Positions, velocity: Array, after: Times) -> History:
+    """``shape`` (N, 3) moved on at ``velocity`` (3,) for each of the times ``after`` (T,)."""
+    return shape + after[:, None, None] * velocity

@@ -3,9 +3,10 @@
 Inputs and outputs are either odd or even under the mirror, given by signs S = ±1 for each
 component. From any perceptron f(x; b) the network
 
-    g(x; b) = ½ [f(x; b) + S_out f(S_in x; b)] − ½ (1 + S_out) f(0; b)
+    g(x; a, b) = ½ [f(a + x; b) + S_out f(a + S_in x; b)] − ½ (1 + S_out) f(a; b)
 
-satisfies g(S_in x; b) = S_out g(x; b) and g(0; b) = 0 exactly, for every set of weights.
+satisfies g(S_in x; a, b) = S_out g(x; a, b) and g(0; a, b) = 0 exactly, for every set of
+weights; a is an origin in the space of x with no odd part, b is a parameter.
 """
 
 from itertools import pairwise
@@ -26,7 +27,11 @@ def perceptron(sizes: list[int], generator: torch.Generator) -> nn.Sequential:
 
 
 class MirrorNetwork(nn.Module):
-    """g(x; b) above: x (S, n_in) and b (S, k) give (S, n_out); k = 0 for no parameter."""
+    """g above: x (S, n_in), origin a (S, n_in) and b (S, k) give (S, n_out).
+
+    Origin and parameter come as one tensor ``context`` = [b, a] (S, k + n_in), or with no
+    column at all for a network that has neither.
+    """
 
     def __init__(
         self,
@@ -39,15 +44,24 @@ class MirrorNetwork(nn.Module):
         super().__init__()
         sizes = [len(signs_in) + n_parameters, *hidden, len(signs_out)]
         self.body = perceptron(sizes, generator)
+        self.n_parameters = n_parameters
         self.register_buffer("signs_in", signs_in.clone())
         self.register_buffer("signs_out", signs_out.clone())
 
-    def rest(self, b: Tensor) -> Tensor:
-        """f(0; b), shape (S, n_out): constant along a trajectory, so callers may keep it."""
-        return self.body(torch.cat([b.new_zeros(len(b), len(self.signs_in)), b], dim=1))
+    def rest(self, context: Tensor) -> Tensor:
+        """f(a; b), shape (S, n_out): constant along a trajectory, so callers may keep it."""
+        b, origin = self._split(context)
+        return self.body(torch.cat([origin, b], dim=1))
 
-    def forward(self, x: Tensor, b: Tensor, rest: Tensor) -> Tensor:
-        """g(x; b), with ``rest`` from the method of that name."""
-        both = torch.cat([torch.cat([x, b], 1), torch.cat([x * self.signs_in, b], 1)])
-        direct, image = self.body(both).chunk(2)
+    def forward(self, x: Tensor, context: Tensor, rest: Tensor) -> Tensor:
+        """g(x; a, b), with ``rest`` from the method of that name."""
+        b, origin = self._split(context)
+        direct, image = torch.cat([x + origin, b], 1), torch.cat([x * self.signs_in + origin, b], 1)
+        direct, image = self.body(torch.cat([direct, image])).chunk(2)
         return 0.5 * (direct + self.signs_out * image - (1 + self.signs_out) * rest)
+
+    def _split(self, context: Tensor) -> tuple[Tensor, Tensor]:
+        if context.shape[1] == 0:
+            return context, context.new_zeros(len(context), len(self.signs_in))
+        b, origin = context[:, : self.n_parameters], context[:, self.n_parameters :]
+        return b, origin * (self.signs_in > 0)

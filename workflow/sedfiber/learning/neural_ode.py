@@ -5,7 +5,9 @@
 
 in a/U_s and L/2. U_term is the steady falling velocity, which the steady solver gives
 along with the terminal shape; so the terminal state is an exact solution at every ℬ. F_h
-and G_c are one mirror-symmetric network (`networks`) of h/std(h) and the scaled ln ℬ.
+and G_c are one mirror-symmetric network (`networks`) of h, its origin h_term and the scaled
+ln ℬ: h + h_term is the latent place of the whole shape (`autoencoder`), in which the
+dynamics depend on ℬ through the elastic forces alone. All latent inputs in units of std(h).
 Motion stays in the plane of the start, so G_c has an x part (odd) and a y part (even).
 """
 
@@ -39,11 +41,14 @@ class NeuralOde(nn.Module):
         """Number of latent variables d."""
         return len(self.latent_scale)
 
-    def rest(self, b: Tensor) -> Tensor:
+    def rest(self, context: Tensor) -> Tensor:
         """The network at h = 0, (S, d + 2): constant along a trajectory."""
-        return self.network.rest(b)
+        return self.network.rest(self._scaled(context))
 
-    def forward(self, h: Tensor, b: Tensor, rest: Tensor) -> Tensor:
-        """[dh/dt, G_c] for h (S, d) and b (S, 1); shape (S, d + 2)."""
-        rates = self.rate_scale * self.network(h / self.latent_scale, b, rest)
+    def forward(self, h: Tensor, context: Tensor, rest: Tensor) -> Tensor:
+        """[dh/dt, G_c] for h (S, d) and context [b, h_term] (S, 1 + d); shape (S, d + 2)."""
+        rates = self.rate_scale * self.network(h / self.latent_scale, self._scaled(context), rest)
         return rates - nn.functional.pad(self.damping * h, (0, N_CENTRE))
+
+    def _scaled(self, context: Tensor) -> Tensor:
+        return torch.cat([context[:, :1], context[:, 1:] / self.latent_scale], dim=1)

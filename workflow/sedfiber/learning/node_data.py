@@ -12,7 +12,7 @@ from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.dataset import Dataset, Trajectory
 from sedfiber.learning.neural_ode import N_CENTRE
 from sedfiber.learning.sampling import path_coordinate, path_even_indices
-from sedfiber.learning.scaling import Scales, residual_history
+from sedfiber.learning.scaling import residual_history
 
 
 @dataclass(frozen=True)
@@ -21,7 +21,7 @@ class EncodedSamples:
 
     Float32 tensors ``t`` (P,), ``h`` (P, d), modal coefficients ``z`` (P, r), ``drift``
     c − c(0) − U_term t (P, 2), ``rates`` of h and drift (P, d+2), ``travelled``
-    |c − c(0)|² (P,), ``path`` to the next sample (P,). ``b`` (S, 1) is the scaled ln ℬ;
+    |c − c(0)|² (P,), ``path`` to the next sample (P,). ``context`` (S, 1+d) is [b, h_term];
     ``first``, ``last`` (S,) and the path-even ``even`` (S, n) are row numbers.
     """
 
@@ -32,15 +32,15 @@ class EncodedSamples:
     rates: Tensor
     travelled: Tensor
     path: Tensor
-    b: Tensor
+    context: Tensor
     first: Tensor
     last: Tensor
     even: Tensor
 
     def path_even(self) -> tuple[Tensor, Tensor, Tensor]:
-        """Path-even samples as rows: h (S n, d), rates (S n, d+2), b (S n, 1)."""
+        """Path-even samples as rows: h (S n, d), rates (S n, d+2), context (S n, 1+d)."""
         rows = self.even.flatten()
-        return self.h[rows], self.rates[rows], self.b.repeat_interleave(self.even.shape[1], dim=0)
+        return self.h[rows], self.rates[rows], self.context.repeat_interleave(self.even.shape[1], dim=0)
 
 
 def encode_samples(training: Dataset, encoder: Autoencoder, count: int) -> EncodedSamples:
@@ -56,7 +56,7 @@ def encode_samples(training: Dataset, encoder: Autoencoder, count: int) -> Encod
     }
     return EncodedSamples(
         **rows,
-        b=torch.tensor([[float(scales.log_B(trajectory.B))] for trajectory in training]),
+        context=torch.cat([encoder.context_of(one.B, one.terminal) for one in training]).float(),
         first=torch.tensor(first),
         last=torch.tensor(first + lengths - 1),
         even=torch.tensor(first[:, None] + even),
@@ -65,7 +65,11 @@ def encode_samples(training: Dataset, encoder: Autoencoder, count: int) -> Encod
 
 def _columns(trajectory: Trajectory, encoder: Autoencoder) -> dict[str, Array]:
     scales = encoder.scales
-    h, z = _encode(trajectory, encoder, scales)
+    residual = torch.tensor(residual_history(trajectory, scales))
+    context = encoder.context_of(trajectory.B, trajectory.terminal).expand(len(residual), -1)
+    with torch.no_grad():
+        z = encoder.modal(residual)
+        h = encoder.encode_modal(z, context)
     centre = scales.centre(trajectory.positions)[:, :N_CENTRE]
     steady = trajectory.terminal_velocity[:N_CENTRE] / scales.half_length
     drift = centre - centre[0] - trajectory.t[:, None] * steady
@@ -74,18 +78,10 @@ def _columns(trajectory: Trajectory, encoder: Autoencoder) -> dict[str, Array]:
     path = path_coordinate(trajectory, scales)
     return {
         "t": trajectory.t,
-        "h": h,
-        "z": z,
+        "h": h.numpy(),
+        "z": z.numpy(),
         "drift": drift,
-        "rates": CubicSpline(trajectory.t, np.concatenate([h, drift], axis=1))(trajectory.t, 1),
+        "rates": CubicSpline(trajectory.t, np.concatenate([h.numpy(), drift], axis=1))(trajectory.t, 1),
         "travelled": travelled,
         "path": np.diff(path, append=path[-1]),
     }
-
-
-def _encode(trajectory: Trajectory, encoder: Autoencoder, scales: Scales) -> tuple[Array, Array]:
-    residual = torch.tensor(residual_history(trajectory, scales))
-    b = torch.full((len(residual), 1), float(scales.log_B(trajectory.B)), dtype=torch.float64)
-    with torch.no_grad():
-        z = encoder.modal(residual)
-        return encoder.encode_modal(z, b).numpy(), z.numpy()

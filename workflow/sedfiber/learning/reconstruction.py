@@ -18,9 +18,9 @@ def autoencoder_errors(model: Autoencoder, trajectory: Trajectory) -> Array:
     residual = residual_history(trajectory, model.scales)
     exact = copy.deepcopy(model).double()
     shapes = torch.tensor(residual)
-    b = torch.full((len(shapes), 1), float(model.scales.log_B(trajectory.B)), dtype=torch.float64)
+    context = exact.context_of(trajectory.B, trajectory.terminal).expand(len(shapes), -1)
     with torch.no_grad():
-        reconstructed = exact.decode(exact.encode(shapes, b), b)
+        reconstructed = exact.decode(exact.encode(shapes, context), context)
     return reconstruction_errors(residual, reconstructed.numpy())
 
 

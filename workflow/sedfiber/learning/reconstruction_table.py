@@ -31,7 +31,7 @@ def reconstruction_rows(models: list[Autoencoder], training: Dataset, tests: lis
 
 def _pod_rows(models: list[Autoencoder], training: Dataset, tests: list[Dataset]) -> list[dict]:
     scales, count = Scales.of(training), models[0].settings.samples_per_trajectory
-    residuals, _ = path_even_residuals(training, count)
+    residuals = path_even_residuals(training, count)
     rows = []
     for d in sorted({model.latent_dim for model in models}):
         basis = pod_basis(residuals, d)

