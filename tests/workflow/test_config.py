@@ -1,6 +1,8 @@
 """config.yaml is validated before any job starts: one line with key, value and what is allowed."""
 
+import ast
 import re
+import sys
 from dataclasses import MISSING, fields
 from pathlib import Path
 
@@ -31,6 +33,7 @@ pytestmark = pytest.mark.xdist_group("workflow")
         ("variants: [none, ", "variants: [nothing, ", "autoencoders.variants.0", "nothing"),
         ("recipe: rollout", "recipe: guess", "node.models.decoder_d2.recipe", "guess"),
         ("forecast_model: decoder_d2", "forecast_model: best", "node.forecast_model", "best"),
+        ("rollout_iterations: [10, 10]", "rollout_iterations: [10]", "node.rollout.rollout_iterations", "[10]"),
         ("iterations: 60 }", "iterations: 60, momentum: 1 }", "autoencoders.settings", "momentum"),
     ],
 )
@@ -107,3 +110,32 @@ def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
     drawn = {str(path.relative_to(PACKAGE)) for path in command_sources("plot_baselines")}
     assert "figures/style.py" in drawn
     assert not any(name.startswith(("learning", "physics")) for name in drawn)
+
+
+OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer"}  # where the import's name is not the package's
+
+
+@pytest.mark.parametrize(
+    ("environment", "commands"),
+    [
+        ("simulate", ["simulate", "solve_terminal_shapes", "check_simulation"]),
+        ("analysis", ["aggregate_dataset", "tabulate_trajectories", "tabulate_timings", "write_manifest"]),
+        ("learning", ["train_autoencoder", "train_node", "forecast_test_set", "tabulate_forecast_errors"]),
+        ("figures", ["plot_reconstruction", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"]),
+    ],
+)
+def test_conda_environments_hold_what_their_commands_import(environment, commands):
+    """Every package outside the standard library that a command's modules import."""
+    listed = yaml.safe_load((REPOSITORY / f"envs/{environment}.yaml").read_text())["dependencies"][-1]["pip"]
+    available = {package.partition("==")[0] for package in listed}
+    for command in commands:
+        for path in command_sources(command):
+            foreign = {OUTSIDE.get(name, name) for name in _imported(path) - set(sys.stdlib_module_names)}
+            assert foreign - {"sedfiber"} <= available, f"{path.name} of {command}"
+
+
+def _imported(path: Path) -> set[str]:
+    """Top-level names of all modules that a file imports."""
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    plain = {alias.name for node in nodes if isinstance(node, ast.Import) for alias in node.names}
+    return {name.split(".")[0] for name in plain | {node.module for node in nodes if isinstance(node, ast.ImportFrom)}}

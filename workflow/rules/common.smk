@@ -36,7 +36,7 @@ shell.prefix(
     f"export PYTHONPATH={shlex.quote(SOURCE_ROOT)}; "
     # doubled twice: once for this f-string, once because Snakemake formats the prefix
     f'sedfiber() {{{{ {shlex.quote(PYTHON)} -m sedfiber "$@"; }}}}; '
-    f'snakemake() {{{{ {shlex.quote(PYTHON)} -m snakemake "$@"; }}}}; '
+    f'snakemake() {{{{ {shlex.quote(sys.executable)} -m snakemake "$@"; }}}}; '
 )
 
 

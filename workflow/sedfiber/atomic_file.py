@@ -19,6 +19,15 @@ def require_writable(path: Path) -> None:
         raise InputError(f"output: folder {str(folder)!r} is not writable; give another path")
 
 
+def require_folder(folder: Path) -> None:
+    """Make an output folder, or refuse, before any work is done, one that cannot take files."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"output: cannot make the folder {str(folder)!r} ({error.strerror})") from None
+    require_writable(folder / "card.json")
+
+
 @contextmanager
 def replaced_when_done(path: Path) -> Iterator[Path]:
     """A temporary path beside ``path`` that takes its name when the block ends well."""
@@ -34,7 +43,12 @@ def replaced_when_done(path: Path) -> Iterator[Path]:
         partial.unlink(missing_ok=True)
 
 
+def write_bytes(path: Path, content: bytes) -> None:
+    """Write bytes so that they appear whole or not at all."""
+    with replaced_when_done(path) as partial:
+        partial.write_bytes(content)
+
+
 def write_text(path: Path, text: str) -> None:
     """Write UTF-8 text so that it appears whole or not at all."""
-    with replaced_when_done(path) as partial:
-        partial.write_text(text, encoding="utf-8")
+    write_bytes(path, text.encode())

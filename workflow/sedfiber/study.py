@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from sedfiber.config_schema import validate
+from sedfiber.errors import InputError
+from sedfiber.learning.settings import NodeSettings
 
 SPLITS = ("train", "A", "B")
 
@@ -24,7 +26,7 @@ class Study:
         validate(config, schema)
         study = cls(config)
         study._require_apart()
-        study._require_forecast_model()
+        study._require_sound_node()
         return study
 
     def B_values(self, split: str) -> list[str]:
@@ -48,11 +50,15 @@ class Study:
                     )
                 seen[B, k] = split
 
-    def _require_forecast_model(self) -> None:
+    def _require_sound_node(self) -> None:
         node = self.config["node"]
         if node["forecast_model"] not in node["models"]:
             names = ", ".join(node["models"])
             sys.exit(f"config: node.forecast_model: {node['forecast_model']!r} is not allowed; give one of {names}")
+        try:
+            NodeSettings(**node["rollout"])
+        except InputError as error:
+            sys.exit(f"config: node.rollout.{error}")
 
     @property
     def simulate_options(self) -> str:

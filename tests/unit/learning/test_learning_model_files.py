@@ -103,5 +103,5 @@ def test_card_that_does_not_fit_the_weights_is_refused(model, tmp_path):
 
 def test_folder_that_cannot_be_made_is_refused(autoencoder, tmp_path):
     (tmp_path / "file").write_text("")
-    with pytest.raises(InputError, match="cannot write"):
+    with pytest.raises(InputError, match="cannot make"):
         save_autoencoder(autoencoder, tmp_path / "file" / "model", {})

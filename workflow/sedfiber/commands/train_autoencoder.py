@@ -5,6 +5,7 @@ from dataclasses import asdict
 
 import torch
 
+from sedfiber.atomic_file import require_folder
 from sedfiber.commands._training import add_training_arguments, say, seed_of, settings_of
 from sedfiber.learning.dataset import read_dataset
 from sedfiber.learning.model_files import save_autoencoder
@@ -27,5 +28,6 @@ def run(args: argparse.Namespace) -> None:
     latent_dim = whole_number("latent_dim", args.latent_dim, "a whole number from 1 up", 1)
     seed, settings = seed_of(args), settings_of(args, AutoencoderSettings)
     training = read_dataset(args.dataset, args.terminal_shapes)
+    require_folder(args.output)
     model = train_autoencoder(training, variant, latent_dim, seed, settings, say)
     save_autoencoder(model, args.output, {"trajectories": len(training), "settings": asdict(settings)})

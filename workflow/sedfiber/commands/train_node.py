@@ -6,6 +6,7 @@ from pathlib import Path
 
 import torch
 
+from sedfiber.atomic_file import require_folder
 from sedfiber.commands._training import add_training_arguments, say, seed_of, settings_of
 from sedfiber.learning.dataset import read_dataset
 from sedfiber.learning.forecast import ForecastModel
@@ -32,6 +33,7 @@ def run(args: argparse.Namespace) -> None:
     seed, settings = seed_of(args), settings_of(args, kind)
     autoencoder = load_autoencoder(args.autoencoder)
     training = read_dataset(args.dataset, args.terminal_shapes)
+    require_folder(args.output)
     node = train(training, autoencoder, seed, settings, say)
     notes = {"recipe": args.recipe, "trajectories": len(training), "node_settings": asdict(settings)}
     save_forecast_model(ForecastModel(autoencoder, node, settings.rtol, settings.atol), args.output, notes)

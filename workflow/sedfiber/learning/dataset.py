@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pyarrow.parquet as pq
 
 from sedfiber._typing import Array, History, Positions, Times
 from sedfiber.errors import InputError
@@ -100,7 +101,7 @@ def centre_index(n_beads: int) -> int:
 
 def _read_parquet(path: str | Path) -> pd.DataFrame:
     try:
-        return pd.read_parquet(path)
+        return pq.read_table(path, page_checksum_verification=True).to_pandas()
     except (OSError, ValueError) as error:
         raise InputError(f"cannot read {path} as Parquet: {str(error).splitlines()[0]}") from error
 

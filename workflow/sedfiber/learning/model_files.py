@@ -7,7 +7,6 @@ bytes depend on the model only.
 
 import hashlib
 import json
-import os
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -17,6 +16,7 @@ from safetensors.torch import load as load_tensors
 from safetensors.torch import save as save_tensors
 from torch import Tensor
 
+from sedfiber.atomic_file import require_folder, write_bytes
 from sedfiber.errors import InputError
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.forecast import ForecastModel
@@ -113,21 +113,9 @@ def _write(folder: str | Path, tensors: dict[str, Tensor], card: dict[str, Any])
     weights = save_tensors(tensors)
     card = {**card, "sha256": hashlib.sha256(weights).hexdigest()}
     text = json.dumps(card, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
-    try:
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        _replace(Path(folder) / WEIGHTS, weights)
-        _replace(Path(folder) / CARD, text.encode())
-    except OSError as error:
-        raise InputError(f"cannot write the model to {folder}: {error.strerror}") from error
-
-
-def _replace(path: Path, content: bytes) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        temporary.write_bytes(content)
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    require_folder(Path(folder))
+    write_bytes(Path(folder) / WEIGHTS, weights)
+    write_bytes(Path(folder) / CARD, text.encode())
 
 
 def _read(folder: str | Path, kind: str) -> tuple[dict[str, Any], dict[str, Tensor]]:

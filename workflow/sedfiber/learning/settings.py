@@ -8,6 +8,8 @@ means chosen on training data, with ℬ = 400 and 2000 or single even angles hel
 
 from dataclasses import dataclass
 
+from sedfiber.validation import refused
+
 VARIANTS = ("none", "encoder", "decoder", "double")
 
 
@@ -74,6 +76,12 @@ class NodeSettings:
     """Relative tolerance of dopri5 in a forecast."""
     atol: float = 1.0e-9
     """Absolute tolerance of dopri5 in a forecast, units of h and of L/2."""
+
+    def __post_init__(self) -> None:
+        """Raise InputError when the phases of stage 2 do not fit together."""
+        if len(self.rollout_lengths) != len(self.rollout_iterations):
+            allowed = f"as many numbers as rollout_lengths has, {len(self.rollout_lengths)}"
+            raise refused("rollout_iterations", list(self.rollout_iterations), allowed)
 
 
 @dataclass(frozen=True)
