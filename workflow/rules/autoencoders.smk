@@ -52,7 +52,7 @@ rule tabulate_reconstruction:
     params:
         models=AUTOENCODERS,
     message:
-        "tabulate the reconstruction loss of {params.models}"
+        "tabulate the reconstruction loss of all autoencoders and of POD"
     shell:
         "sedfiber tabulate_reconstruction --dataset {input.dataset} --terminal-shapes {input.shapes}"
         " --models {params.models} --test-datasets {input.tests} --test-shapes {input.test_shapes}"
