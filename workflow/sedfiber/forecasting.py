@@ -75,10 +75,7 @@ class Forecaster:
         autoencoder = self.model.autoencoder
         return {
             "kind": "forecast",
-            "scene": scene.to_dict() | {"start_angle": scene.start_angle},
-            "B": scene.B,
-            "B_force_consistent": scene.force_consistent_B,
-            "modulus": scene.modulus,
+            **scene.facts(),
             "model": {
                 "variant": autoencoder.variant,
                 "latent_dim": autoencoder.latent_dim,

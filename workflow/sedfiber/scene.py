@@ -91,6 +91,15 @@ class Scene:
         """Plain values for a file's metadata."""
         return asdict(self)
 
+    def facts(self) -> dict:
+        """What every file of this scene records: the scene and both elasto-gravitational numbers."""
+        return {
+            "scene": self.to_dict() | {"start_angle": self.start_angle},
+            "B": self.B,
+            "B_force_consistent": self.force_consistent_B,
+            "modulus": self.modulus,
+        }
+
     @classmethod
     def from_dict(cls, values: dict) -> "Scene":
         """The inverse of ``to_dict``; raises InputError for an unknown or missing key."""

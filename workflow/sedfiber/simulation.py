@@ -127,10 +127,7 @@ def _gap_bound(scene: Scene) -> float:
 def _metadata(scene: Scene, numerics: Numerics, t_end: float | None, march: March) -> dict:
     return {
         "kind": "simulation",
-        "scene": scene.to_dict() | {"start_angle": scene.start_angle},
-        "B": scene.B,
-        "B_force_consistent": scene.force_consistent_B,
-        "modulus": scene.modulus,
+        **scene.facts(),
         "numerics": asdict(numerics) | {"t_end": t_end},
         "counters": asdict(march.counters),
     }

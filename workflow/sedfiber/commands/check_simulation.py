@@ -32,7 +32,7 @@ def run(args: argparse.Namespace) -> None:
     first = read_trajectory(args.trajectory)
     values = {key: first.metadata["scene"][key] for key in Scene.__dataclass_fields__}
     numerics = Numerics(args.integrator, tolerance, tolerance, first.metadata["numerics"]["interval"])
-    second = simulate(Scene(**values), numerics, t_end=float(first.t[-1]))
+    second = simulate(Scene.from_dict(values), numerics, t_end=float(first.t[-1]))
     difference = largest_difference(first, second)
     if not difference <= bound:
         raise NumericalError(f"runs differ by {difference:.3g} L, more than {bound:g} L; try a smaller rtol")
