@@ -39,6 +39,13 @@ def test_target_rules_make_their_stage(empty, target, last):
     assert not AFTER_EVERYTHING & set(planned)
 
 
+def test_a_stage_plans_nothing_beyond_itself(empty):
+    """Asking for the simulations must not start a training."""
+    assert set(empty.planned("simulations")) == {"simulate", "tabulate_trajectories"}
+    assert set(empty.planned("dataset")) == {"simulate", "aggregate_dataset", "solve_terminal_shapes"}
+    assert not {"train_node", "forecast_test_set"} & set(empty.planned("autoencoders"))
+
+
 def test_a_second_run_has_nothing_to_do(finished):
     """The graph is complete: what ran is not planned again."""
     run = finished.snakemake("-j2")
