@@ -8,7 +8,7 @@ import numpy as np
 
 from sedfiber.physics.assembly import assemble
 from sedfiber.physics.gravity import Gravity
-from sedfiber.physics.rpy import RotnePragerYamakawa
+from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.system import System
 from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
 
@@ -135,7 +135,7 @@ class FallingPair(Motion):
 
     def __init__(self):
         super().__init__()
-        self.system = System([Gravity()], RotnePragerYamakawa(), 2, 2)
+        self.system = System([Gravity()], PairMobility("RPY", 2), 2, 2)
         self.start = self.system.to_state(np.array([[0.0, 0.0], [2.0, 0.0]]))
         self.f, self.df = self.system.rhs, self.system.jacobian
 

@@ -111,8 +111,7 @@ def _settled(system: System, y: State, terminal: Positions, scene: Scene, t: flo
 
 
 def _is_steady(system: System, y: State) -> bool:
-    u = system.velocity(system.relative(y))
-    return bool(np.abs(u - u[system.centre]).max() < _STANDSTILL)
+    return bool(np.abs(system.relative_velocities(y)).max() < _STANDSTILL)
 
 
 def _strain_bound(scene: Scene) -> float:

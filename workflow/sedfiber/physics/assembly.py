@@ -2,7 +2,7 @@
 
 from sedfiber.physics.bending import Bending
 from sedfiber.physics.gravity import Gravity
-from sedfiber.physics.rpy import RotnePragerYamakawa
+from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.stretching import Stretching
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
@@ -11,5 +11,4 @@ from sedfiber.scene import Scene
 def assemble(scene: Scene) -> System:
     """Gravity, stretching and bending, moved through the scene's mobility."""
     forces = (Gravity(), Stretching(scene.modulus), Bending(scene.modulus))
-    mobility = RotnePragerYamakawa(overlap=scene.hydrodynamics == "RPY-overlap")
-    return System(forces, mobility, scene.n_beads, scene.dim)
+    return System(forces, PairMobility(scene.hydrodynamics, scene.dim), scene.n_beads, scene.dim)

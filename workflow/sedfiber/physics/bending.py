@@ -1,11 +1,13 @@
 """Bending: ``U = (ℰ/8) Σ_angles (1 − cos θ)``, θ between consecutive bond vectors."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 from numba import njit
 
-from sedfiber._typing import Matrix, Positions
+from sedfiber._typing import Band, Positions
+from sedfiber.physics.protocols import TO_THE_LAST
 
 
 @dataclass(frozen=True)
@@ -15,22 +17,28 @@ class Bending:
     With bonds ``b1, b2`` of lengths ``l1, l2``, directions ``t1, t2`` and
     ``c = t1·t2``, the derivatives of ``c`` are ``g1 = (t2 − c t1)/l1`` and
     ``g2 = (t1 − c t2)/l2``, and the three beads feel ``(ℰ/8)(−g1, g1 − g2, g2)``.
-    Source: Schlagberger & Netz 2005, with the bending modulus ``Eπa⁴/4``.
+    Source: Schlagberger & Netz 2005, with the bending modulus ``Eπa⁴/4``.  The fiber is made
+    of the beads from ``first`` to before ``last``.
     """
 
     modulus: float
+    first: int = 0
+    last: int = TO_THE_LAST
+
+    placed: ClassVar[bool] = False
+    banded: ClassVar[bool] = True
 
     def add_force(self, x: Positions, force: Positions) -> None:
         """Add the bending forces to ``force``, shape (N, d)."""
-        _add_force(x, self.modulus / 8.0, force)
+        _add_force(x, self.modulus / 8.0, self.first, self.last, force)
 
-    def add_jacobian(self, x: Positions, jac: Matrix) -> None:
-        """Add ``∂F/∂x`` to ``jac``, shape (N d, N d)."""
-        _add_jacobian(x, self.modulus / 8.0, jac)
+    def add_jacobian(self, x: Positions, jac: Band) -> None:
+        """Add ``∂F/∂x`` to the band ``jac``, shape (5, d, d, N)."""
+        _add_jacobian(x, self.modulus / 8.0, self.first, self.last, jac)
 
     def energy(self, x: Positions) -> float:
         """``(ℰ/8) Σ (1 − cos θ)`` in units of ``6πμaU_s · a``."""
-        return _energy(x, self.modulus / 8.0)
+        return _energy(x, self.modulus / 8.0, self.first, self.last)
 
 
 @njit(cache=True)
@@ -53,10 +61,10 @@ def _directions(x, m, t1, t2):
 
 
 @njit(cache=True)
-def _energy(x, kappa):
+def _energy(x, kappa, first, last):
     t1, t2 = np.empty(x.shape[1]), np.empty(x.shape[1])
     total = 0.0
-    for m in range(1, x.shape[0] - 1):
+    for m in range(first + 1, min(last, x.shape[0]) - 1):
         _directions(x, m, t1, t2)
         # 1 − cos θ = |t2 − t1|²/2 keeps its digits for a nearly straight fiber
         for k in range(x.shape[1]):
@@ -65,26 +73,45 @@ def _energy(x, kappa):
 
 
 @njit(cache=True)
-def _add_force(x, kappa, force):
-    d = x.shape[1]
-    t1, t2 = np.empty(d), np.empty(d)
-    for m in range(1, x.shape[0] - 1):
-        l1, l2, c = _directions(x, m, t1, t2)
-        for k in range(d):
-            g1 = kappa * (t2[k] - c * t1[k]) / l1
-            g2 = kappa * (t1[k] - c * t2[k]) / l2
-            force[m - 1, k] -= g1
-            force[m, k] += g1 - g2
-            force[m + 1, k] += g2
+def _add_force(x, kappa, first, last, force):
+    spatial = x.shape[1] == 3
+    end = min(last, x.shape[0]) - 1
+    ax = ay = az = p = 0.0  # the bond before: its direction, and κ over its length
+    mx = my = mz = nx = ny = nz = 0.0  # so far, the forces on bead m − 1 and on bead m
+    for m in range(first, end):
+        bx = x[m + 1, 0] - x[m, 0]
+        by = x[m + 1, 1] - x[m, 1]
+        bz = x[m + 1, 2] - x[m, 2] if spatial else 0.0
+        over = 1.0 / np.sqrt(bx * bx + by * by + bz * bz)
+        bx, by, bz, q = bx * over, by * over, bz * over, kappa * over
+        if m > first:
+            c = ax * bx + ay * by + az * bz
+            gx, hx = p * (bx - c * ax), q * (ax - c * bx)
+            gy, hy = p * (by - c * ay), q * (ay - c * by)
+            force[m - 1, 0] += mx - gx
+            force[m - 1, 1] += my - gy
+            mx, my, nx, ny = nx + gx - hx, ny + gy - hy, hx, hy
+            if spatial:
+                gz, hz = p * (bz - c * az), q * (az - c * bz)
+                force[m - 1, 2] += mz - gz
+                mz, nz = nz + gz - hz, hz
+        ax, ay, az, p = bx, by, bz, q
+    if end > first:
+        force[end - 1, 0] += mx
+        force[end - 1, 1] += my
+        force[end, 0] += nx
+        force[end, 1] += ny
+        if spatial:
+            force[end - 1, 2] += mz
+            force[end, 2] += nz
 
 
 @njit(cache=True)
-def _add_jacobian(x, kappa, jac):
+def _add_jacobian(x, kappa, first, last, band):
     d = x.shape[1]
     t1, t2 = np.empty(d), np.empty(d)
-    for m in range(1, x.shape[0] - 1):
+    for m in range(first + 1, min(last, x.shape[0]) - 1):
         l1, l2, c = _directions(x, m, t1, t2)
-        p, q, s = (m - 1) * d, m * d, (m + 1) * d
         for k in range(d):
             for w in range(d):
                 unit = 1.0 if k == w else 0.0
@@ -95,12 +122,12 @@ def _add_jacobian(x, kappa, jac):
                 h22 = -kappa * (a2 + c * (unit - t2[k] * t2[w])) / (l2 * l2)
                 h12 = kappa * (unit - t2[k] * t2[w] - t1[k] * (t1[w] - c * t2[w])) / (l1 * l2)
                 h21 = kappa * (unit - t1[k] * t1[w] - t2[k] * (t2[w] - c * t1[w])) / (l1 * l2)
-                jac[p + k, p + w] += h11
-                jac[p + k, q + w] += h12 - h11
-                jac[p + k, s + w] -= h12
-                jac[q + k, p + w] += h21 - h11
-                jac[q + k, q + w] += h11 - h12 - h21 + h22
-                jac[q + k, s + w] += h12 - h22
-                jac[s + k, p + w] -= h21
-                jac[s + k, q + w] += h21 - h22
-                jac[s + k, s + w] += h22
+                band[2, k, w, m - 1] += h11
+                band[1, k, w, m] += h12 - h11
+                band[0, k, w, m + 1] -= h12
+                band[3, k, w, m - 1] += h21 - h11
+                band[2, k, w, m] += h11 - h12 - h21 + h22
+                band[1, k, w, m + 1] += h12 - h22
+                band[4, k, w, m - 1] -= h21
+                band[3, k, w, m] += h21 - h22
+                band[2, k, w, m + 1] += h22

@@ -6,7 +6,7 @@ import numpy as np
 
 from sedfiber._typing import State
 from sedfiber.errors import NumericalError
-from sedfiber.physics.pair_mobility import smallest_gap
+from sedfiber.physics.gaps import smallest_gap
 from sedfiber.physics.system import System
 
 ENERGY_BALANCE = 1e-4  # of the energy lost; the default tolerances reach about 1e-6

@@ -1,21 +1,43 @@
-"""Gravity: the weight of one bead, ``−ŷ``, on each bead."""
+"""Gravity: a constant force on each bead."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
-from sedfiber._typing import Matrix, Positions
+import numpy as np
+from numba import njit
+
+from sedfiber._typing import Band, Positions
 
 
 @dataclass(frozen=True)
 class Gravity:
-    """A constant force ``−ŷ`` per bead; forces are measured in this weight, ``6πμaU_s``."""
+    """The weight of each bead, ``g``; the study's is ``−ŷ``, the unit of force ``6πμaU_s``.
+
+    In the plane its third component must be zero.
+    """
+
+    weight: tuple[float, float, float] = (0.0, -1.0, 0.0)
+
+    placed: ClassVar[bool] = False
+    banded: ClassVar[bool] = True
 
     def add_force(self, x: Positions, force: Positions) -> None:
-        """Add ``−ŷ`` to every row of ``force``, shape (N, d)."""
-        force[:, 1] -= 1.0
+        """Add the weight to every row of ``force``, shape (N, d)."""
+        gx, gy, gz = self.weight
+        _add_force(gx, gy, gz, force)
 
-    def add_jacobian(self, x: Positions, jac: Matrix) -> None:
+    def add_jacobian(self, x: Positions, jac: Band) -> None:
         """A constant force has no derivative."""
 
     def energy(self, x: Positions) -> float:
-        """``Σ y`` in units of ``6πμaU_s · a``."""
-        return float(x[:, 1].sum())
+        """``−Σ g·x`` in units of ``6πμaU_s · a``."""
+        return -float(x.sum(axis=0) @ np.array(self.weight[: x.shape[1]]))
+
+
+@njit(cache=True)
+def _add_force(gx, gy, gz, force):
+    for i in range(force.shape[0]):
+        force[i, 0] += gx
+        force[i, 1] += gy
+        if force.shape[1] == 3:
+            force[i, 2] += gz

@@ -1,44 +1,46 @@
-"""The equations of motion ``ẋ = M(x) F(x)`` of a list of effects, in the centre bead's frame.
+"""The equations of motion ``ẋ = M(x) F(x) + u∞(x)`` of a list of parts, in the centre bead's frame.
 
 A state ``y`` has N d + 1 entries.  The first N d have the shape of the positions: the row of
 the centre bead holds its position ``c``, every other row a position relative to it.  Elastic
 forces and pair mobilities depend on relative positions alone, so a fall of any length costs
 no digits, and a tolerance relative to ``|c|`` never loosens the tolerance on the shape.  The
-last entry is the work ``W = ∫ F·ẋ dt`` of the forces, which must equal the energy lost.
+last entry is the work ``W = ∫ F·ẋ dt`` of the conservative forces, which must equal the energy lost.
 """
 
-from collections.abc import Sequence
-from typing import Protocol
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from sedfiber._typing import History, Matrix, Positions, State
-
-
-class Force(Protocol):
-    """One effect that pushes on beads: adds to an array of forces and to its Jacobian."""
-
-    def add_force(self, x: Positions, force: Positions) -> None: ...
-    def add_jacobian(self, x: Positions, jac: Matrix) -> None: ...
-    def energy(self, x: Positions) -> float: ...
-
-
-class Mobility(Protocol):
-    """What turns forces into velocities."""
-
-    def velocity(self, x: Positions, force: Positions) -> Positions: ...
-    def matrix(self, x: Positions) -> Matrix: ...
-    def jacobian(self, x: Positions, force: Positions, force_jac: Matrix) -> Matrix: ...
+from sedfiber._typing import Band, History, Matrix, Positions, State
+from sedfiber.physics import frame
+from sedfiber.physics.protocols import ConservativeForce, Flow, Force, Mobility
 
 
 class System:
-    """Right-hand side and Jacobian of exactly the listed effects, with counters."""
+    """Right-hand side and Jacobian of exactly the listed parts, with counters.
 
-    def __init__(self, forces: Sequence[Force], mobility: Mobility, n_beads: int, dim: int):
-        self.forces = tuple(forces)
+    ``forces`` are conservative; ``drives`` are forces without an energy, whose work is not counted.
+    """
+
+    def __init__(
+        self,
+        forces: Sequence[ConservativeForce],
+        mobility: Mobility,
+        n_beads: int,
+        dim: int,
+        drives: Sequence[Force] = (),
+        flows: Sequence[Flow] = (),
+    ):
+        self.forces, self.drives, self.flows = tuple(forces), tuple(drives), tuple(flows)
         self.mobility = mobility
         self.shape = (n_beads, dim)
+        self._size = n_beads * dim + 1
+        self._move, self._moves_placed = mobility.velocity, mobility.placed
+        # looked up once: attributes of parts are a tenth of a right-hand side
+        self._add_force = tuple((part.add_force, part.placed) for part in forces)
+        self._room = tuple(np.empty(self.shape) for _ in range(3))
         self.centre = n_beads // 2
+        self.placed = bool(flows) or any(part.placed for part in (mobility, *forces, *drives))
         self.rhs_count = 0
         self.jacobian_count = 0
 
@@ -62,67 +64,110 @@ class System:
         x[..., :d] += states[..., None, first : first + d]
         return x
 
-    def relative(self, y: State) -> Positions:
-        """Bead positions relative to the centre bead, shape (N, d)."""
-        x = y[:-1].reshape(self.shape).copy()
-        x[self.centre] = 0.0
-        return x
-
-    def force(self, x: Positions) -> Positions:
-        """Sum of the listed forces, shape (N, d)."""
-        total = np.zeros(self.shape)
-        for effect in self.forces:
-            effect.add_force(x, total)
-        return total
-
-    def force_jacobian(self, x: Positions) -> Matrix:
-        """``∂F/∂x``, shape (N d, N d)."""
-        jac = np.zeros((x.size, x.size))
-        for effect in self.forces:
-            effect.add_jacobian(x, jac)
-        return jac
-
-    def velocity(self, x: Positions) -> Positions:
-        """``M(x) F(x)``, shape (N, d)."""
-        return self.mobility.velocity(x, self.force(x))
-
-    def velocity_jacobian(self, x: Positions) -> Matrix:
-        """``∂(M F)/∂x``, shape (N d, N d)."""
-        return self.mobility.jacobian(x, self.force(x), self.force_jacobian(x))
-
     def rhs(self, t: float, y: State) -> State:
         """``dy/dt``: relative velocities, the centre bead's own, and the power ``F·ẋ``."""
         self.rhs_count += 1
-        x = self.relative(y)
-        force = self.force(x)
-        u = self.mobility.velocity(x, force)
-        out = np.empty(u.size + 1)
-        out[-1] = np.vdot(force, u)
-        rows = out[:-1].reshape(self.shape)
-        np.subtract(u, u[self.centre], out=rows)
-        rows[self.centre] = u[self.centre]
+        x, place, force, total, u = self._open(y)
+        self._move(place if self._moves_placed else x, total, u)
+        for flow in self.flows:
+            flow.add_velocity(place, u)
+        out = np.empty(self._size)
+        frame.rates(u, force, out)
         return out
 
     def jacobian(self, t: float, y: State) -> Matrix:
-        """``∂(dy/dt)/∂y``, shape (N d + 1, N d + 1).
-
-        The columns of ``c`` vanish by translation invariance, those of ``W`` because nothing
-        depends on it.
-        """
+        """``∂(dy/dt)/∂y``, shape (N d + 1, N d + 1); nothing depends on the work."""
         self.jacobian_count += 1
-        n, d = self.shape
-        x = self.relative(y)
-        force, force_jac = self.force(x), self.force_jacobian(x)
-        jac = self.mobility.jacobian(x, force, force_jac)
-        out = np.zeros((n * d + 1, n * d + 1))
-        out[-1, :-1] = self.mobility.velocity(x, force).ravel() @ force_jac + force.ravel() @ jac
-        centre = slice(self.centre * d, (self.centre + 1) * d)
-        rows = jac.reshape(n, d, n * d) - jac[centre]
-        rows[self.centre] = jac[centre]
-        out[:-1, :-1] = rows.reshape(n * d, n * d)
-        out[:, centre] = 0.0
-        return out
+        x, place, force, total, u = self._open(y)
+        jac = np.zeros((y.size, y.size))
+        band, far = self._linearise(x, place, total, u, jac)
+        frame.add_work_row(u, force, band, jac)
+        if far is not None:
+            jac[-1, :-1] += u.ravel() @ far
+        frame.to_centre_frame(jac, self.shape, self.placed)
+        return jac
+
+    def relative_velocities(self, y: State) -> Positions:
+        """Bead velocities relative to the centre bead's at a state, shape (N, d)."""
+        x, place, _, total, u = self._open(y)
+        self._velocity(x, place, total, u)
+        return u - u[self.centre]
+
+    def force(self, x: Positions) -> Positions:
+        """Sum of all forces at laboratory positions (N, d)."""
+        force = np.zeros(self.shape)
+        for part in (*self.forces, *self.drives):
+            part.add_force(x, force)
+        return force
+
+    def velocity(self, x: Positions) -> Positions:
+        """``M(x) F(x) + u∞(x)`` at laboratory positions (N, d)."""
+        u = np.empty(self.shape)
+        self._velocity(x, x, self.force(x), u)
+        return u
+
+    def velocity_jacobian(self, x: Positions) -> Matrix:
+        """``∂(M F + u∞)/∂x`` at laboratory positions, shape (N d, N d)."""
+        jac = np.zeros((x.size, x.size))
+        self._linearise(x, x, self.force(x), np.empty(self.shape), jac)
+        return jac
 
     def energy(self, x: Positions) -> float:
-        """Elastic and gravitational energy together, in units of ``6πμaU_s · a``."""
-        return sum(effect.energy(x) for effect in self.forces)
+        """Energy of all conservative forces at laboratory positions, in units of ``6πμaU_s · a``."""
+        return sum(part.energy(x) for part in self.forces)
+
+    def _open(self, y: State) -> tuple[Positions, Positions, Positions, Positions, Positions]:
+        """Of a state: positions relative to the centre bead, in the laboratory (the same array if no
+        part is placed), conservative forces, all forces, room for velocities; all (N, d) and good
+        until the next call.
+        """
+        x, force, u = self._room
+        frame.open_state(y, x, force)
+        place = self._in_laboratory(x, y) if self.placed else x
+        for add_force, placed in self._add_force:
+            add_force(place if placed else x, force)
+        return x, place, force, self._with_drives(x, place, force) if self.drives else force, u
+
+    def _in_laboratory(self, x: Positions, y: State) -> Positions:
+        first = self.centre * self.shape[1]
+        return x + y[first : first + self.shape[1]]
+
+    def _with_drives(self, x: Positions, place: Positions, force: Positions) -> Positions:
+        total = force.copy()
+        for part in self.drives:
+            part.add_force(place if part.placed else x, total)
+        return total
+
+    def _velocity(self, x: Positions, place: Positions, force: Positions, u: Positions) -> None:
+        self._move(place if self._moves_placed else x, force, u)
+        for flow in self.flows:
+            flow.add_velocity(place, u)
+
+    def _linearise(
+        self, x: Positions, place: Positions, force: Positions, u: Positions, jac: Matrix
+    ) -> tuple[Band, Matrix | None]:
+        """Write ``ẋ`` to ``u`` and add ``∂ẋ/∂x`` to ``jac``; returns ``∂F/∂x`` of the conservative forces."""
+        band, far = self._force_jacobian(self.forces, x, place)
+        all_band, all_far = band, far
+        if self.drives:
+            all_band, all_far = self._force_jacobian((*self.forces, *self.drives), x, place)
+        at, size = place if self.mobility.placed else x, x.size
+        self.mobility.linearise(at, force, all_band, u, jac)
+        if all_far is not None:
+            jac[:size, :size] += self.mobility.matrix(at) @ all_far
+        for flow in self.flows:
+            flow.add_velocity(place, u)
+            flow.add_jacobian(place, jac)
+        return band, far
+
+    def _force_jacobian(self, parts: Iterable[Force], x: Positions, place: Positions) -> tuple[Band, Matrix | None]:
+        """``∂F/∂x`` of some forces: the banded ones together, and the others if there are any."""
+        band, far = frame.no_band(self.shape), None
+        for part in parts:
+            at = place if part.placed else x
+            if part.banded:
+                part.add_jacobian(at, band)
+            else:
+                far = np.zeros((x.size, x.size)) if far is None else far
+                part.add_jacobian(at, far)
+        return band, far

@@ -1,0 +1,37 @@
+"""No hydrodynamic interaction: each bead is dragged through the fluid as if it were alone."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from sedfiber._typing import Band, Matrix, Positions
+
+
+@dataclass(frozen=True)
+class FreeDraining:
+    """``M = I`` in units ``1/(6πμa)`` (Stokes drag)."""
+
+    placed: ClassVar[bool] = False
+
+    def velocity(self, x: Positions, force: Positions, u: Positions) -> None:
+        """Write ``F`` to ``u``, shape (N, d)."""
+        u[:] = force
+
+    def matrix(self, x: Positions) -> Matrix:
+        """The unit matrix, shape (N d, N d)."""
+        return np.eye(x.size)
+
+    def linearise(self, x: Positions, force: Positions, band: Band, u: Positions, jac: Matrix) -> None:
+        """Write ``F`` to ``u`` and add ``∂F/∂x`` to ``jac``, at least (N d, N d)."""
+        u[:] = force
+        add_band(band, jac)
+
+
+def add_band(band: Band, jac: Matrix) -> None:
+    """Add a band to a matrix, at least (N d, N d)."""
+    _, d, _, n = band.shape
+    for offset in range(-2, 3):
+        for j in range(max(0, -offset), min(n, n - offset)):
+            i = j + offset
+            jac[i * d : i * d + d, j * d : j * d + d] += band[offset + 2, :, :, j]

@@ -1,0 +1,56 @@
+"""What a system is made of: forces, a mobility, flows.
+
+Each part is one small class.  ``placed`` says which positions it is given: False for those
+relative to the centre bead, all that a part without a place of its own depends on; True for
+positions in the laboratory, which a wall or a flow needs.
+"""
+
+from typing import Protocol
+
+from sedfiber._typing import Band, Matrix, Positions
+
+TO_THE_LAST = 1 << 62  # end of a range of beads that reaches to the last one
+
+
+class Force(Protocol):
+    """Pushes on beads: adds to an array of forces and to its Jacobian.
+
+    ``banded`` says that a force depends on beads at most two apart along the chain; then
+    ``add_jacobian`` adds to a band (5, d, d, N), otherwise to a matrix (N d, N d).
+    """
+
+    placed: bool
+    banded: bool
+
+    def add_force(self, x: Positions, force: Positions) -> None: ...
+    def add_jacobian(self, x: Positions, jac: Band | Matrix) -> None: ...
+
+
+class ConservativeForce(Force, Protocol):
+    """A force that is minus the gradient of an energy."""
+
+    def energy(self, x: Positions) -> float: ...
+
+
+class Mobility(Protocol):
+    """Turns forces into velocities."""
+
+    placed: bool
+
+    def velocity(self, x: Positions, force: Positions, u: Positions) -> None:
+        """Write ``M(x) F`` to ``u``."""
+
+    def matrix(self, x: Positions) -> Matrix:
+        """``M(x)``, shape (N d, N d)."""
+
+    def linearise(self, x: Positions, force: Positions, band: Band, u: Positions, jac: Matrix) -> None:
+        """Write ``M F`` to ``u`` and add ``M ∂F/∂x + (∂M/∂x) F`` to ``jac``, at least (N d, N d)."""
+
+
+class Flow(Protocol):
+    """Carries beads along: adds to their velocities, and to the Jacobian of these."""
+
+    def add_velocity(self, x: Positions, u: Positions) -> None: ...
+
+    def add_jacobian(self, x: Positions, jac: Matrix) -> None:
+        """Add ``∂u/∂x`` to ``jac``, at least (N d, N d)."""
