@@ -54,8 +54,11 @@ def random_rotation(seed, dim):
 
 
 def system_of(space="plane", hydrodynamics="RPY", B=1000.0, n_beads=11):
-    """The study's effects on a fiber of ``n_beads``."""
-    return assemble(Scene(B, 0.5, n_beads, space=space, hydrodynamics=hydrodynamics))
+    """The study's effects on a fiber of ``n_beads``; with Oseen too, which no scene of so many allows."""
+    if hydrodynamics != "Oseen":
+        return assemble(Scene(B, 0.5, n_beads, space=space, hydrodynamics=hydrodynamics))
+    forces = assemble(Scene(B, 0.5, n_beads)).forces
+    return System(forces, PairMobility("Oseen", SPACES[space]), n_beads, SPACES[space])
 
 
 def taylor_slope(f, jacobian, y, direction, eps):

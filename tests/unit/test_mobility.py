@@ -224,4 +224,11 @@ def test_jacobian_adds_the_matrix_times_the_force_jacobian(form, dim):
 def test_smallest_gap_leaves_neighbours_out():
     """A hairpin of touching beads: neighbours touch, the two arms are 3a apart, so 1a is free."""
     x = np.array([[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [4.0, 3.0], [2.0, 3.0], [0.0, 3.0]])
-    assert smallest_gap(x) == pytest.approx(1.0)
+    assert smallest_gap(x, 6) == pytest.approx(1.0)
+
+
+def test_ends_of_two_fibers_are_not_neighbours():
+    """Bead 2 and bead 3 are 2.1a apart: neighbours in one fiber of six, not in two of three."""
+    x = np.array([[0.0, 0.0], [2.0, 0.0], [4.0, 0.0], [6.1, 0.0], [8.1, 0.0], [10.1, 0.0]])
+    assert smallest_gap(x, 3) == pytest.approx(0.1)
+    assert smallest_gap(x, 6) == pytest.approx(2.0)

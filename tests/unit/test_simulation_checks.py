@@ -53,31 +53,33 @@ def states_of(system, shapes, work):
 
 def test_strain_and_gap_are_the_extremes_over_the_run():
     """One bond of 2.2 a in the second sample: strain 0.1; beads two apart leave 2 a, or more, between them."""
-    system = system_of(n_beads=5)
+    system, scene = system_of(n_beads=5), Scene(1000, 0.5, 5)
     rest, stretched = straight_chain(5, 2), straight_chain(5, 2)
     stretched[4, 0] += 0.2
-    measured = check(system, states_of(system, [rest, stretched], 0.0), 1.0, 0.0, 0.5)
+    measured = check(system, states_of(system, [rest, stretched], 0.0), scene, 0.5)
     assert measured.bond_strain_max == pytest.approx(0.1)
     assert measured.smallest_gap == pytest.approx(2.0)
-    assert (measured.strain_bound, measured.gap_bound, measured.final_distance) == (1.0, 0.0, 0.5)
+    assert (measured.strain_bound, measured.gap_bound) == (5 / scene.modulus, -0.8)
+    assert measured.final_distance == 0.5
 
 
 def test_energy_imbalance_is_relative_to_the_whole_loss():
     """Five beads fall by 1 and then by 3 more: 20 units lost; work 5 and 20.2 leaves an imbalance of 1 %."""
     system = system_of(n_beads=5)
     falls = [bent_chain(0, 5, 2) - np.array([0.0, depth]) for depth in (0.0, 1.0, 4.0)]
-    measured = check(system, states_of(system, falls, [0.0, 5.0, 20.2]), 1.0, 0.0, 0.0)
+    measured = check(system, states_of(system, falls, [0.0, 5.0, 20.2]), Scene(1000, 0.5, 5), 0.0)
     assert measured.energy_imbalance == pytest.approx(0.01)
 
 
 def test_a_run_of_one_sample_is_in_balance():
     """Nothing has been lost yet."""
     system = system_of(n_beads=5)
-    assert check(system, states_of(system, [straight_chain(5, 2)], 0.0), 1.0, 0.0, 0.0).energy_imbalance == 0.0
+    states = states_of(system, [straight_chain(5, 2)], 0.0)
+    assert check(system, states, Scene(1000, 0.5, 5), 0.0).energy_imbalance == 0.0
 
 
 def test_a_run_that_breaks_a_bound_is_no_result(monkeypatch):
     """simulate() raises instead of returning: here with a strain bound that no fiber can meet."""
-    monkeypatch.setattr(simulation, "_strain_bound", lambda scene: 1e-12)
+    monkeypatch.setattr("sedfiber.physics.checks.strain_bound", lambda scene: 1e-12)
     with pytest.raises(NumericalError, match="check failed: bond strain"):
         simulation.simulate(Scene(1000, 0.5, 11), t_end=2.0)

@@ -112,7 +112,7 @@ def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
     assert not any(name.startswith(("learning", "physics")) for name in drawn)
 
 
-OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer"}  # where the import's name is not the package's
+OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml"}  # where the import's name is not the package's
 
 
 @pytest.mark.parametrize(

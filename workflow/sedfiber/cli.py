@@ -9,7 +9,8 @@ from typing import NoReturn
 from sedfiber.errors import SedfiberError
 
 COMMANDS = {
-    "simulate": "integrate one fiber and write its trajectory",
+    "simulate": "integrate a scene and write its trajectory",
+    "effects": "every effect a scene may list: parameters, units, defaults, source",
     "steady": "terminal shape and speed at one elasto-gravitational number",
     "forecast": "forecast one fiber with the trained model",
     "solve_terminal_shapes": "steady shapes of several elasto-gravitational numbers in one table",

@@ -1,7 +1,7 @@
 """One-line checks of single values, shared by scenes, commands and settings."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from sedfiber.errors import InputError
@@ -49,6 +49,31 @@ def one_of(key: str, value: Any, choices: Iterable[str]) -> str:
     choices = tuple(choices)
     if value not in choices:
         raise refused(key, value, "one of " + ", ".join(choices))
+    return value
+
+
+def vector(key: str, value: Any) -> tuple[float, float, float]:
+    """``value`` as three finite numbers; two stand for x and y.  Raises InputError."""
+    allowed = "a list of two or three finite numbers"
+    if isinstance(value, str) or not isinstance(value, Sequence) or len(value) not in (2, 3):
+        raise refused(key, value, allowed)
+    x, y, z = (finite_number(key, component, allowed) for component in (*value, 0.0)[:3])
+    return x, y, z
+
+
+def direction(key: str, value: Any) -> tuple[float, float, float]:
+    """``value`` as a vector of length one, or InputError."""
+    x, y, z = vector(key, value)
+    length = math.hypot(x, y, z)
+    if length == 0.0:
+        raise refused(key, value, "a direction that is not zero")
+    return (x, y, z) if length == 1.0 else (x / length, y / length, z / length)
+
+
+def yes_or_no(key: str, value: Any) -> bool:
+    """``value`` if it is true or false, or InputError."""
+    if not isinstance(value, bool):
+        raise refused(key, value, "true or false")
     return value
 
 

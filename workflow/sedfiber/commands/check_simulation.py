@@ -8,9 +8,10 @@ import numpy as np
 
 from sedfiber.atomic_file import require_writable, write_text
 from sedfiber.errors import NumericalError
+from sedfiber.numerics import Numerics
 from sedfiber.physics.integrators import INTEGRATORS
 from sedfiber.scene import Scene
-from sedfiber.simulation import Numerics, simulate
+from sedfiber.simulation import simulate
 from sedfiber.trajectory import Trajectory
 from sedfiber.trajectory_file import read_trajectory
 from sedfiber.validation import positive_number
@@ -30,7 +31,7 @@ def run(args: argparse.Namespace) -> None:
     require_writable(args.output)
     bound, tolerance = positive_number("bound", args.bound), positive_number("tolerance", args.tolerance)
     first = read_trajectory(args.trajectory)
-    values = {key: first.metadata["scene"][key] for key in Scene.__dataclass_fields__}
+    values = {key: value for key, value in first.metadata["scene"].items() if key != "start_angle"}
     numerics = Numerics(args.integrator, tolerance, tolerance, first.metadata["numerics"]["interval"])
     second = simulate(Scene.from_dict(values), numerics, t_end=float(first.t[-1]))
     difference = largest_difference(first, second)

@@ -1,4 +1,4 @@
-"""``sedfiber simulate``: integrate one fiber and write its trajectory."""
+"""``sedfiber simulate``: integrate a scene, of a file or of options, and write its trajectory."""
 
 import argparse
 import math
@@ -6,19 +6,24 @@ from dataclasses import replace
 from pathlib import Path
 
 from sedfiber.atomic_file import require_writable
-from sedfiber.physics.integrators import INTEGRATORS
+from sedfiber.errors import InputError
+from sedfiber.numerics import DEFAULT_INTEGRATOR, Numerics
+from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC
 from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
-from sedfiber.simulation import Numerics, simulate
+from sedfiber.scene_file import read_scene
+from sedfiber.simulation import simulate
 from sedfiber.trajectory_file import write_trajectory
-from sedfiber.validation import positive_number, whole_number
+from sedfiber.validation import whole_number
 
 ANGLES_PER_HALF_TURN = 48  # the study's grid of inclinations is k π/48
+_OPTIONS = ("B", "theta0", "n_beads", "space", "hydrodynamics", "tilt", "seed")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Values stay text here; Scene and Numerics say what is allowed."""
-    parser.add_argument("--B", required=True, help="elasto-gravitational number")
-    angle = parser.add_mutually_exclusive_group(required=True)
+    parser.add_argument("scene", nargs="?", type=Path, help="YAML file of the scene; options below change its values")
+    parser.add_argument("--B", help="elasto-gravitational number")
+    angle = parser.add_mutually_exclusive_group()
     angle.add_argument("--theta0", help="initial inclination to the x-axis, radians")
     angle.add_argument("--angle-index", help="the same as k in θ0 = k π/48")
     parser.add_argument("-o", "--output", type=Path, required=True, help="Parquet file to write")
@@ -26,9 +31,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--space", help=f"{' or '.join(SPACES)} ({Scene.space})")
     parser.add_argument("--hydrodynamics", help=f"{' or '.join(HYDRODYNAMICS)} ({Scene.hydrodynamics})")
     parser.add_argument("--tilt", help=f"replaces θ0 = 0, radians; 0 for exact symmetry ({Scene.tilt:g})")
-    parser.add_argument("--seed", help=f"draws the sign of the tilt ({Scene.seed})")
+    parser.add_argument("--seed", help=f"draws the sign of the tilt, disturbance and noise ({Scene.seed})")
     parser.add_argument("--t-end", help="end of the run, a/U_s (when the fiber has settled)")
-    parser.add_argument("--integrator", help=f"{', '.join(INTEGRATORS)} ({Numerics.integrator})")
+    names = ", ".join((*INTEGRATORS, STOCHASTIC))
+    parser.add_argument("--integrator", help=f"{names} ({DEFAULT_INTEGRATOR}; with noise {STOCHASTIC})")
     parser.add_argument("--rtol", help=f"relative tolerance ({Numerics.rtol:g})")
     parser.add_argument("--atol", help=f"absolute tolerance, a ({Numerics.atol:g})")
     parser.add_argument("--interval", help=f"sample spacing, a/U_s ({Numerics.interval})")
@@ -36,21 +42,35 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> None:
-    """Validate everything, integrate, write."""
+    """Validate everything, integrate, write, and say what left-out effects would have done."""
     index = None if args.angle_index is None else _angle_index(args.angle_index)
-    theta0 = args.theta0 if index is None else index * math.pi / ANGLES_PER_HALF_TURN
-    scene = Scene(**_given(args, Scene) | {"theta0": theta0})
-    numerics = Numerics(**_given(args, Numerics))
-    t_end = None if args.t_end is None else positive_number("t_end", args.t_end)
+    scene, numerics = _requested(args, index)
     require_writable(args.output)
-    trajectory = simulate(scene, numerics, t_end)
+    trajectory = simulate(scene, numerics)
     labelled = replace(trajectory, metadata=trajectory.metadata | {"angle_index": index})
     write_trajectory(labelled, args.output)
+    for verdict in trajectory.metadata["audit"]:
+        print(verdict["words"])
 
 
-def _given(args: argparse.Namespace, kind: type) -> dict:
-    """The options of ``kind`` that were given; its own defaults stand for the rest."""
-    values = {key: getattr(args, key) for key in kind.__dataclass_fields__}
+def _requested(args: argparse.Namespace, index: int | None) -> tuple[Scene, Numerics]:
+    """The file's scene with the options' values, or the options' alone."""
+    what = _given(args, _OPTIONS)
+    if index is not None:
+        what["theta0"] = index * math.pi / ANGLES_PER_HALF_TURN
+    how = _given(args, Numerics.__dataclass_fields__)
+    if args.scene is not None:
+        scene, numerics = read_scene(args.scene)
+        return replace(scene, **what), replace(numerics, **how)
+    for key, option in (("B", "--B"), ("theta0", "--theta0 or --angle-index")):
+        if key not in what:
+            raise InputError(f"{key}: missing; give {option}, or a scene file")
+    return Scene(**what), Numerics(**how)
+
+
+def _given(args: argparse.Namespace, keys: tuple[str, ...]) -> dict:
+    """The options that were given; the scene's or the defaults stand for the rest."""
+    values = {key: getattr(args, key) for key in keys}
     return {key: value for key, value in values.items() if value is not None}
 
 

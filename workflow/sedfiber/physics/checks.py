@@ -4,33 +4,36 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from sedfiber._typing import State
+from sedfiber._typing import Array, History, State
 from sedfiber.errors import NumericalError
+from sedfiber.physics.bounds import gap_bound, strain_bound
 from sedfiber.physics.gaps import smallest_gap
 from sedfiber.physics.system import System
+from sedfiber.scene import Scene
 
 ENERGY_BALANCE = 1e-4  # of the energy lost; the default tolerances reach about 1e-6
+_LEAST_ENERGY = 1.0  # 6πμa²U_s, one bead lowered by one radius: less than this is not measured against itself
 
 
 @dataclass(frozen=True)
 class Checks:
-    """Measured on the samples; lengths in a, energies in 6πμaU_s·a.
+    """Measured on the samples; lengths in a, energies in 6πμaU_s·a; None where it means nothing.
 
-    ``bond_strain_max`` is the largest ``|r/2 − 1|``, bounded by ``strain_bound = N/ℰ``
-    (a tension of the fiber's whole weight); ``smallest_gap`` the least surface distance of
-    beads that are not neighbours, bounded below by ``gap_bound``; ``energy_imbalance`` is
-    the largest ``|U(0) − U(t) − ∫FᵀMF dt|``
-    over the energy lost in the whole run; ``final_distance`` that to the terminal
-    shape over L.
+    ``bond_strain_max`` is the largest ``|r/2 − 1|``; ``smallest_gap`` the least surface distance
+    of beads that are not neighbours; ``wall_gap`` that of a bead and the wall; ``energy_imbalance``
+    the largest ``|U(0) − U(t) − ∫FᵀẊ dt|`` over the energy lost in the whole run;
+    ``final_distance`` that to the terminal shape over L.  The bounds are those of
+    ``physics.bounds``, and 1e-4 on the energy.
     """
 
-    bond_strain_max: float
-    strain_bound: float
-    smallest_gap: float
-    gap_bound: float
-    energy_imbalance: float
-    energy_bound: float
-    final_distance: float
+    bond_strain_max: float | None
+    strain_bound: float | None
+    smallest_gap: float | None
+    gap_bound: float | None
+    energy_imbalance: float | None
+    energy_bound: float | None
+    final_distance: float | None
+    wall_gap: float | None = None
 
     def to_dict(self) -> dict:
         """Plain values for a file's metadata."""
@@ -38,37 +41,57 @@ class Checks:
 
     def require(self) -> None:
         """Raise NumericalError naming the first bound that is broken."""
-        self._bound("bond strain", self.bond_strain_max, self.strain_bound)
-        self._bound("overlap of beads that are not neighbours", -self.smallest_gap, -self.gap_bound)
-        self._bound("energy imbalance", self.energy_imbalance, self.energy_bound)
+        accuracy = "try a smaller --rtol or another --integrator"
+        self._bound("bond strain", self.bond_strain_max, self.strain_bound, accuracy)
+        if self.gap_bound is not None and self.smallest_gap is not None:
+            advice = "add contact, or give hydrodynamics RPY-overlap"
+            self._bound("overlap of beads that are not neighbours", -self.smallest_gap, -self.gap_bound, advice)
+        if self.wall_gap is not None:
+            self._bound("a bead's depth in the wall", -self.wall_gap, 0.1, "add contact, or end before it gets there")
+        self._bound("energy imbalance", self.energy_imbalance, self.energy_bound, accuracy)
 
     @staticmethod
-    def _bound(name: str, value: float, bound: float) -> None:
-        if not value <= bound:
-            raise NumericalError(
-                f"check failed: {name} {value:.3g} is above its bound {bound:.3g}; "
-                "try a smaller --rtol or another --integrator"
-            )
+    def _bound(name: str, value: float | None, bound: float | None, advice: str) -> None:
+        if value is not None and bound is not None and not value <= bound:
+            raise NumericalError(f"check failed: {name} {value:.3g} is above its bound {bound:.3g}; {advice}")
 
 
-def check(system: System, states: State, strain_bound: float, gap_bound: float, final_distance: float) -> Checks:
-    """Measure a finished run from its states (T, N d + 1)."""
-    shapes = system.to_shapes(states)[..., : system.shape[1]]
-    bonds = np.linalg.norm(np.diff(shapes, axis=1), axis=2)
+def check(system: System, states: State, scene: Scene, final_distance: float | None) -> Checks:
+    """Measure a finished run from its states (T, beads d + 1)."""
+    positions = system.to_positions(states)[..., : scene.dim]
+    shapes = np.ascontiguousarray(system.to_shapes(states)[..., : scene.dim])
+    balanced = scene.noise is None
     return Checks(
-        bond_strain_max=float(np.abs(0.5 * bonds - 1.0).max()),
-        strain_bound=strain_bound,
-        smallest_gap=min(smallest_gap(np.ascontiguousarray(x)) for x in shapes),
-        gap_bound=gap_bound,
-        energy_imbalance=_energy_imbalance(system, states),
-        energy_bound=ENERGY_BALANCE,
+        bond_strain_max=_largest_strain(shapes, scene.n_beads),
+        strain_bound=strain_bound(scene),
+        smallest_gap=_smallest_gap(shapes, scene.n_beads),
+        gap_bound=gap_bound(scene),
+        energy_imbalance=_energy_imbalance(system, positions, states[:, -1]) if balanced else None,
+        energy_bound=ENERGY_BALANCE if balanced else None,
         final_distance=final_distance,
+        wall_gap=None if scene.wall is None else float(_heights(scene, positions).min()) - 1.0,
     )
 
 
-def _energy_imbalance(system: System, states: State) -> float:
+def _largest_strain(shapes: History, n_beads: int) -> float | None:
+    if n_beads == 1:
+        return None
+    bonds = np.diff(shapes.reshape(len(shapes), -1, n_beads, shapes.shape[-1]), axis=2)
+    return float(np.abs(0.5 * np.linalg.norm(bonds, axis=3) - 1.0).max())
+
+
+def _smallest_gap(shapes: History, n_beads: int) -> float | None:
+    """None when all beads are neighbours."""
+    gap = min(smallest_gap(x, n_beads) for x in shapes)
+    return None if np.isinf(gap) else gap
+
+
+def _heights(scene: Scene, positions: History) -> Array:
+    return (positions - np.array(scene.wall.point)) @ np.array(scene.wall.normal)
+
+
+def _energy_imbalance(system: System, positions: History, work: Array) -> float:
     """Energy lost against work done, relative to the whole run's loss."""
-    positions = system.to_positions(states)[..., : system.shape[1]]
     energy = np.array([system.energy(x) for x in positions])
-    lost, work = energy[0] - energy, states[:, -1]
-    return float(np.abs(lost - work).max() / np.abs(lost).max()) if len(states) > 1 else 0.0
+    lost = energy[0] - energy
+    return float(np.abs(lost - work).max() / max(np.abs(lost).max(), _LEAST_ENERGY))

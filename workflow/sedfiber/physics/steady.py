@@ -11,11 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from sedfiber._typing import Array, Positions
-from sedfiber.errors import NumericalError
+from sedfiber.errors import InputError, NumericalError
 from sedfiber.physics.assembly import assemble
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
-from sedfiber.validation import positive_number
 
 NEARLY_STRAIGHT = 10.0  # ℬ from which the straight fiber is a good first guess
 TOLERANCE = 1e-10  # on the largest relative bead speed, in U_s
@@ -61,14 +60,24 @@ def steady_state(B: float, n_beads: int = 31, hydrodynamics: str = "RPY") -> Ste
     Raises InputError for values that are not allowed and NumericalError when the branch
     cannot be followed to ``B``.
     """
-    target = positive_number("B", B)
-    scene = Scene(min(target, NEARLY_STRAIGHT), 0.0, n_beads, hydrodynamics=hydrodynamics, tilt=0.0)
-    x = _follow_branch(scene, target)
-    system = assemble(replace(scene, B=target))
+    return terminal_state(Scene(B, 0.0, n_beads, hydrodynamics=hydrodynamics))
+
+
+def terminal_state(scene: Scene) -> SteadyState:
+    """Terminal U-shape and velocity of a scene that has one, with just its effects.
+
+    Raises InputError for a scene without a terminal shape and NumericalError when the branch
+    cannot be followed to its ℬ.
+    """
+    if not scene.has_terminal_shape:
+        raise InputError("steady: this scene has no terminal shape; it needs gravity, a fiber of 3 beads or more, RPY")
+    flat = replace(scene, space="plane", theta0=0.0, tilt=0.0, shape=None, disturbance=None)
+    x = _follow_branch(replace(flat, B=min(scene.B, NEARLY_STRAIGHT)), scene.B)
+    system = assemble(flat)
     velocity, residual = _relative_speeds(system, x)
-    positions, fall = np.zeros((n_beads, 3)), np.zeros(3)
+    positions, fall = np.zeros((scene.n_beads, 3)), np.zeros(3)
     positions[:, :2], fall[:2] = x, velocity[system.centre]
-    return SteadyState(target, positions, fall, float(np.abs(residual).max()))
+    return SteadyState(scene.B, positions, fall, float(np.abs(residual).max()))
 
 
 def _follow_branch(scene: Scene, target: float) -> Positions:

@@ -153,7 +153,7 @@ class System:
             all_band, all_far = self._force_jacobian((*self.forces, *self.drives), x, place)
         at, size = place if self.mobility.placed else x, x.size
         self.mobility.linearise(at, force, all_band, u, jac)
-        if all_far is not None:
+        if all_far is not None and all_far.any():  # contact is zero most of the time
             jac[:size, :size] += self.mobility.matrix(at) @ all_far
         for flow in self.flows:
             flow.add_velocity(place, u)

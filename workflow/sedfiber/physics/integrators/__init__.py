@@ -3,12 +3,15 @@
 from sedfiber.physics.integrators.base import Counters, March, Tolerances
 from sedfiber.physics.integrators.dopri5 import Dopri5
 from sedfiber.physics.integrators.implicit import BDFMarch, LSODAMarch, RadauMarch
+from sedfiber.physics.integrators.stochastic import StochasticMidpoint
 
+# Those of deterministic scenes; noise has the stochastic one.
 INTEGRATORS: dict[str, type[March]] = {
     "BDF": BDFMarch,
     "Radau": RadauMarch,
     "LSODA": LSODAMarch,
     "dopri5": Dopri5,
 }
+STOCHASTIC = StochasticMidpoint.name
 
-__all__ = ["INTEGRATORS", "Counters", "March", "Tolerances"]
+__all__ = ["INTEGRATORS", "STOCHASTIC", "Counters", "March", "StochasticMidpoint", "Tolerances"]

@@ -1,0 +1,91 @@
+"""An effect that a user brings, written in plain NumPy: what it lacks is filled in here.
+
+A user's class has ``force(x)`` (N, d) → (N, d), or ``velocity(x)`` for a flow, of laboratory
+positions; optionally ``energy(x)``, whose fall is then part of the energy balance.  Its Jacobian
+is taken by central differences with a step of 1e-6 a, right to about ten digits: an
+implicit method needs it for speed, and the solution does not depend on it.
+"""
+
+import hashlib
+import importlib.util
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from sedfiber._typing import Matrix, Positions
+from sedfiber.errors import InputError, NumericalError
+from sedfiber.scene_parts import Own
+
+_STEP = 1e-6  # a; the cube root of the rounding error balances the two errors of a central difference
+
+
+class _OwnEffect:
+    """A user's ``function(x)`` of laboratory positions, checked, with its Jacobian by differences."""
+
+    placed = True
+    banded = False
+
+    def __init__(self, name: str, function: Any):
+        self._name, self._function = name, function
+
+    def _value(self, x: Positions) -> Positions:
+        value = np.asarray(self._function(x.copy()), dtype=float)
+        if value.shape != x.shape or not np.isfinite(value).all():
+            raise NumericalError(
+                f"own: {self._name} returned shape {value.shape} or a number that is not finite; "
+                f"return finite numbers of shape {x.shape}"
+            )
+        return value
+
+    def add_jacobian(self, x: Positions, jac: Matrix) -> None:
+        """Add the derivative to ``jac``, at least (N d, N d)."""
+        for column in range(x.size):
+            step = np.zeros(x.size)
+            step[column] = _STEP
+            ahead, behind = (self._value(x + s * step.reshape(x.shape)) for s in (1.0, -1.0))
+            jac[: x.size, column] += (ahead - behind).ravel() / (2.0 * _STEP)
+
+
+class OwnForce(_OwnEffect):
+    """A force; conservative if the user's class has an energy."""
+
+    def __init__(self, name: str, effect: Any):
+        super().__init__(name, effect.force)
+        if hasattr(effect, "energy"):
+            self.energy = lambda x: float(effect.energy(x))
+
+    def add_force(self, x: Positions, force: Positions) -> None:
+        """Add the user's force, shape (N, d)."""
+        force += self._value(x)
+
+
+class OwnFlow(_OwnEffect):
+    """A velocity that carries beads along."""
+
+    def __init__(self, name: str, effect: Any):
+        super().__init__(name, effect.velocity)
+
+    def add_velocity(self, x: Positions, u: Positions) -> None:
+        """Add the user's velocity, shape (N, d)."""
+        u += self._value(x)
+
+
+def load_own(own: Own) -> OwnForce | OwnFlow:
+    """The user's class from the user's file; raises InputError when there is no such thing."""
+    path = Path(own.file)
+    if not path.is_file():
+        raise InputError(f"own.file: {own.file!r} does not exist; give the path of a Python file")
+    name = f"sedfiber_own_{hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:12]}"
+    spec = importlib.util.spec_from_file_location(name, path)
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+        effect = getattr(module, own.effect)(**(own.parameters or {}))
+    except Exception as error:
+        why = f"{type(error).__name__}: {error}".splitlines()[0]
+        raise InputError(f"own: cannot make {own.effect!r} from {own.file!r} ({why})") from None
+    for kind, method in ((OwnForce, "force"), (OwnFlow, "velocity")):
+        if callable(getattr(effect, method, None)):
+            return kind(own.effect, effect)
+    raise InputError(f"own.effect: {own.effect!r} has neither force(x) nor velocity(x); write one of them")

@@ -1,0 +1,50 @@
+"""Scenes as YAML files: the keys of ``Scene``, and under ``numerics`` those of ``Numerics``."""
+
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from sedfiber.errors import InputError
+from sedfiber.numerics import Numerics
+from sedfiber.scene import Scene
+
+
+def read_scene(path: str | Path) -> tuple[Scene, Numerics]:
+    """A scene and how to integrate it; raises InputError naming the key that is wrong.
+
+    Files that the scene names (a start shape, an effect of the user's) are looked for beside it.
+    """
+    values = _mapping(Path(path))
+    how = values.pop("numerics", None) or {}
+    if not isinstance(how, dict):
+        raise InputError(f"numerics: {how!r} is not allowed; give {{{', '.join(Numerics.__dataclass_fields__)}}}")
+    for key in how:
+        if key not in Numerics.__dataclass_fields__:
+            raise InputError(f"numerics: unknown key {key!r}; keys are {', '.join(Numerics.__dataclass_fields__)}")
+    for key in values:
+        if key not in Scene.__dataclass_fields__:
+            raise InputError(f"scene: unknown key {key!r}; keys are {', '.join(Scene.__dataclass_fields__)}, numerics")
+    _look_beside(values, Path(path).parent)
+    return Scene.from_dict(values), Numerics(**how)
+
+
+def _mapping(path: Path) -> dict[str, Any]:
+    try:
+        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"scene: cannot read {str(path)!r} ({error.strerror})") from None
+    except (yaml.YAMLError, UnicodeDecodeError) as error:
+        why = " ".join(str(error).split())
+        raise InputError(f"scene: {str(path)!r} is not YAML ({why})") from None
+    if not isinstance(values, dict):
+        raise InputError(f"scene: {str(path)!r} is not a mapping of keys to values; give at least B and theta0")
+    return values
+
+
+def _look_beside(values: dict[str, Any], folder: Path) -> None:
+    """Make relative paths relative to the scene's folder."""
+    own = values.get("own")
+    for part in [values.get("shape"), *(own if isinstance(own, list) else ())]:
+        if isinstance(part, dict) and isinstance(part.get("file"), str):
+            part["file"] = str(folder / part["file"])

@@ -1,0 +1,101 @@
+"""Which parts of a scene go together; what makes no sense is refused by name."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from sedfiber._typing import Positions
+from sedfiber.errors import InputError
+
+if TYPE_CHECKING:
+    from sedfiber.scene import Scene
+
+LEAST_POSITIVE = 1.13  # a: below it a pair makes plain RPY lose positive definiteness
+_TOUCHING = 2.0 * (1.0 - 1e-9)
+
+
+def require_sense(scene: "Scene") -> None:
+    """Raise InputError for the first combination that makes no sense."""
+    if scene.space == "plane":
+        _require_flat(scene)
+    if scene.wall is not None and scene.hydrodynamics not in ("RPY", "RPY-overlap"):
+        raise InputError(
+            f"hydrodynamics: {scene.hydrodynamics} near a wall is not allowed; its correction is one to RPY, "
+            "give RPY or RPY-overlap"
+        )
+    if scene.space == "volume" and scene.shape is None and scene.bending and scene.bending.curvature:
+        raise InputError(
+            "bending.curvature: a straight start in volume has no direction to bend to; "
+            "give shape: rest, another shape, or space: plane"
+        )
+    if scene.wall is not None:
+        _require_above_wall(scene, scene.start())
+    if scene.fibers or scene.shape is not None or scene.disturbance is not None:
+        _require_apart(scene, scene.start())
+    if scene.hydrodynamics == "Oseen":
+        _require_positive(scene, scene.start())
+
+
+def _require_flat(scene: "Scene") -> None:
+    """A planar scene may hold nothing that moves a fiber out of z = 0."""
+    if scene.wall is not None:
+        raise InputError("wall: cuts the plane of a planar scene; give space: volume")
+    if scene.gravity is not None and scene.gravity.direction[2] != 0.0:
+        raise InputError("gravity.direction: points out of the plane of a planar scene; give space: volume")
+    if scene.flow is not None and scene.flow.gradient is not None:
+        g = np.array(scene.flow.gradient)
+        if g[2].any() or g[:, 2].any():
+            raise InputError("flow.gradient: leaves the plane of a planar scene; give space: volume")
+    if any(fiber.place[2] != 0.0 for fiber in scene.fibers):
+        raise InputError("fibers.place: out of the plane z = 0 of a planar scene; give space: volume")
+    if scene.disturbance is not None and scene.disturbance.direction == "out-of-plane":
+        raise InputError("disturbance.direction: out-of-plane in a planar scene is not allowed; give space: volume")
+
+
+def _require_above_wall(scene: "Scene", x: Positions) -> None:
+    heights = (x - np.array(scene.wall.point)) @ np.array(scene.wall.normal)
+    lowest = int(heights.argmin())
+    if heights[lowest] < 1.0:
+        raise InputError(
+            f"wall: bead {lowest} starts {heights[lowest]:.4g} a above it, less than its radius; "
+            "move wall.point or turn wall.normal to the fiber's side"
+        )
+
+
+def _require_apart(scene: "Scene", x: Positions) -> None:
+    """No two beads in one place, and none so close that the mobility loses its meaning."""
+    i, j, r = closest_pair(x)
+    if r == 0.0:
+        raise InputError(f"start: beads {i} and {j} are in one place; move one of them")
+    if scene.hydrodynamics == "Oseen" and r < _TOUCHING:
+        raise InputError(
+            f"hydrodynamics: Oseen with beads that overlap ({i} and {j} are {r:.4g} a apart) is not allowed; "
+            "give RPY-overlap"
+        )
+    if scene.hydrodynamics == "RPY" and r < LEAST_POSITIVE:
+        raise InputError(
+            f"hydrodynamics: plain RPY is not positive definite for beads {i} and {j}, {r:.4g} a apart; "
+            "give RPY-overlap"
+        )
+
+
+def closest_pair(x: Positions) -> tuple[int, int, float]:
+    """The two beads whose centres are closest, and their distance."""
+    best = (0, 0, np.inf)
+    for i in range(len(x) - 1):
+        r = np.linalg.norm(x[i + 1 :] - x[i], axis=1)
+        if r.min() < best[2]:
+            best = (i, i + 1 + int(r.argmin()), float(r.min()))
+    return best
+
+
+def _require_positive(scene: "Scene", x: Positions) -> None:
+    """Oseen's tensor for many touching beads moves some of them against the pull."""
+    from sedfiber.physics.pair_mobility import PairMobility  # compiled: only for those who ask
+
+    least = float(np.linalg.eigvalsh(PairMobility("Oseen", scene.dim).matrix(x))[0])
+    if least <= 0.0:
+        raise InputError(
+            f"hydrodynamics: Oseen is not positive definite for these {len(x)} beads (smallest eigenvalue "
+            f"{least:.2g}): it moves some against the pull; give RPY"
+        )
