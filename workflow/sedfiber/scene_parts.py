@@ -95,7 +95,7 @@ class Wall(Part):
 class Flow(Part):
     """A background flow: linear by name and rate or by gradient, or parabolic."""
 
-    key, acts_in = "flow", "physics/linear_flow.py, physics/parabolic_flow.py, physics/flow_couple.py"
+    key, acts_in = "flow", "physics/{linear_flow, parabolic_flow, flow_couple, couple_flow}.py"
     summary = (
         "a background flow: shear u_x = rate·y, extension (x, −y)·rate, rotation (−y, x)·rate, any G·x, or parabolic"
     )
@@ -235,7 +235,7 @@ class Own(Part):
         for name in ("file", "effect"):
             if not isinstance(getattr(self, name), str):
                 raise refused(f"own.{name}", getattr(self, name), "text")
-        if not isinstance(self.parameters or {}, dict):
+        if self.parameters is not None and not isinstance(self.parameters, dict):
             raise refused("own.parameters", self.parameters, "a mapping of names to values")
 
 

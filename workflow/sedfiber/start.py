@@ -70,7 +70,7 @@ def _displacement(disturbance: Disturbance, shape: tuple[int, int], seed: int) -
 
 def read_shape(value: Any, n_beads: int, dim: int) -> Any:
     """A start shape as the scene keeps it: None, "rest", or N rows of three numbers; raises InputError."""
-    if value is None or value in ("none", "straight"):
+    if value is None or (isinstance(value, str) and value in ("none", "straight")):
         return None
     if isinstance(value, str) and value == REST:
         return REST

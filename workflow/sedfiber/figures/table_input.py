@@ -53,7 +53,7 @@ def _require_columns(table: pd.DataFrame, names: Sequence[str]) -> None:
         raise InputError(f"input: the table has no column {', '.join(missing)}; it has {', '.join(table.columns)}")
     if table.empty:
         raise InputError("input: the table has no rows")
-    strangers = sorted(set(table["test_set"].astype(str)) - set(TEST_SETS))
+    strangers = sorted(set(table["test_set"].astype(str)) - set(TEST_SETS)) if "test_set" in names else []
     if strangers:
         raise InputError(f"input: test_set: {strangers[0]!r} is not allowed; give one of {', '.join(TEST_SETS)}")
 

@@ -62,7 +62,8 @@ def _contacts(scene: Scene) -> list[ConservativeForce]:
 
 
 def _add_flow(scene: Scene, flows: list[Flow], drives: list[Force]) -> None:
-    """The flow, and the couple it exerts on beads that turn with their fiber."""
+    """The flow, the couple it exerts on beads that turn with their fiber, and the flow that these make."""
+    from sedfiber.physics.couple_flow import CoupleFlow
     from sedfiber.physics.flow_couple import FlowCouple
     from sedfiber.physics.linear_flow import LinearFlow, named_gradient
     from sedfiber.physics.parabolic_flow import ParabolicFlow
@@ -75,6 +76,8 @@ def _add_flow(scene: Scene, flows: list[Flow], drives: list[Force]) -> None:
     flows.append(flow)
     if part.couple:
         drives.append(FlowCouple(flow, scene.n_beads))
+    if part.couple and scene.hydrodynamics != "none":
+        flows.append(CoupleFlow(flow, scene.n_beads))
 
 
 def _add_own(own, forces: list[ConservativeForce], drives: list[Force], flows: list[Flow]) -> None:

@@ -1,0 +1,208 @@
+# Example scenes, and any other file in scenes/: each is run and drawn.
+
+
+rule simulate_scene:
+    input:
+        sources("simulate"),
+        lambda wildcards: scene_files(wildcards.scene),
+    output:
+        "results/scenes/{scene}.parquet",
+    log:
+        "results/logs/simulate_scene/{scene}.log",
+    benchmark:
+        "results/benchmarks/simulate_scene/{scene}.tsv"
+    conda:
+        "../../envs/simulate.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        file=lambda wildcards: scene_files(wildcards.scene)[0],
+    message:
+        "simulate scene {wildcards.scene}"
+    shell:
+        "sedfiber simulate {params.file} -o {output} > {log} 2>&1"
+
+
+rule plot_scene:
+    input:
+        sources("plot_scene"),
+        trajectory="results/scenes/{scene}.parquet",
+    output:
+        svg="results/figures/scenes/{scene}.svg",
+        png="results/figures/scenes/{scene}.png",
+    log:
+        "results/logs/plot_scene/{scene}.log",
+    benchmark:
+        "results/benchmarks/plot_scene/{scene}.tsv"
+    conda:
+        "../../envs/figures.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        title=lambda wildcards: wildcards.scene.replace("_", " "),
+    message:
+        "draw scene {wildcards.scene}"
+    shell:
+        "sedfiber plot_scene {input.trajectory} --title {params.title:q}"
+        " --svg {output.svg} --png {output.png} > {log} 2>&1"
+
+
+rule tabulate_audit:
+    input:
+        sources("tabulate_audit"),
+        trajectories=expand("results/scenes/{scene}.parquet", scene=SCENES),
+    output:
+        "results/tables/scene_audit.csv",
+    log:
+        "results/logs/tabulate_audit.log",
+    benchmark:
+        "results/benchmarks/tabulate_audit.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    message:
+        "tabulate what the scenes left out"
+    shell:
+        "sedfiber tabulate_audit {input.trajectories} -o {output} > {log} 2>&1"
+
+
+rule scenes:
+    input:
+        expand("results/figures/scenes/{scene}.png", scene=SCENES),
+        rules.tabulate_audit.output,
+
+
+rule compare_third_dimension:
+    input:
+        sources("compare_third_dimension"),
+    output:
+        table="results/tables/third_dimension.csv",
+        growth="results/tables/third_dimension_growth.csv",
+    log:
+        "results/logs/compare_third_dimension.log",
+    benchmark:
+        "results/benchmarks/compare_third_dimension.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=10,
+    params:
+        B=config["third_dimension"]["B"],
+        options=STUDY.third_dimension_options,
+    message:
+        "find where the third dimension begins to matter"
+    shell:
+        "sedfiber compare_third_dimension --B {params.B} {params.options}"
+        " -o {output.table} --growth {output.growth} > {log} 2>&1"
+
+
+rule plot_third_dimension:
+    input:
+        sources("plot_third_dimension"),
+        table="results/tables/third_dimension.csv",
+        growth="results/tables/third_dimension_growth.csv",
+    output:
+        svg="results/figures/third_dimension.svg",
+        png="results/figures/third_dimension.png",
+    log:
+        "results/logs/plot_third_dimension.log",
+    benchmark:
+        "results/benchmarks/plot_third_dimension.tsv"
+    conda:
+        "../../envs/figures.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "draw where the third dimension begins to matter"
+    shell:
+        "sedfiber plot_third_dimension {input.table} --growth {input.growth}"
+        " --svg {output.svg} --png {output.png} > {log} 2>&1"
+
+
+rule third_dimension:
+    input:
+        rules.plot_third_dimension.output,
+
+
+rule measure_effects:
+    input:
+        sources("measure_effects"),
+    output:
+        "results/tables/effects.csv",
+    log:
+        "results/logs/measure_effects.log",
+    benchmark:
+        "results/benchmarks/measure_effects.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        options=STUDY.effects_options,
+    message:
+        "measure cost and influence of every effect"
+    shell:
+        "sedfiber measure_effects {params.options} -o {output} > {log} 2>&1"
+
+
+rule plot_effects:
+    input:
+        sources("plot_effects"),
+        table="results/tables/effects.csv",
+    output:
+        svg="results/figures/effects.svg",
+        png="results/figures/effects.png",
+    log:
+        "results/logs/plot_effects.log",
+    benchmark:
+        "results/benchmarks/plot_effects.tsv"
+    conda:
+        "../../envs/figures.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "draw cost and influence of every effect"
+    shell:
+        "sedfiber plot_effects {input.table} --svg {output.svg} --png {output.png} > {log} 2>&1"
+
+
+rule benchmark_parts:
+    input:
+        sources("benchmark_parts"),
+    output:
+        "results/tables/parts_against_fused_kernel.csv",
+    log:
+        "results/logs/benchmark_parts.log",
+    benchmark:
+        "results/benchmarks/benchmark_parts.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    message:
+        "time the study's scene against a kernel written for it alone"
+    shell:
+        "sedfiber benchmark_parts -o {output} > {log} 2>&1"
+
+
+rule effects:
+    input:
+        rules.plot_effects.output,
+        rules.benchmark_parts.output,

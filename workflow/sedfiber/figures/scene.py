@@ -1,0 +1,122 @@
+"""A scene's run: snapshots in space, and what changes along the way."""
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Polygon
+
+from sedfiber._typing import Array, History
+from sedfiber.figures.style import BLACK, BLUE, GREY, ORANGE, PAGE_WIDTH, PURPLE, VERMILION, place_legend
+from sedfiber.trajectory import Trajectory
+
+SNAPSHOTS = 8
+FIBER_COLORS = (BLUE, VERMILION, ORANGE, PURPLE)
+AXIS_STYLES = dict(zip("xyz", ("-", "--", ":"), strict=True))
+_MARGIN = 4.0  # a, around the beads
+_STILL = 2.0  # fiber lengths: a run that stays within these is drawn in one fixed frame
+_LEAST_EXTENT = 1e-8  # of L, the lower end of the logarithmic axis
+_FRAME = PAGE_WIDTH / SNAPSHOTS  # inches
+
+
+def draw_scene(run: Trajectory, title: str) -> Figure:
+    """A row of snapshots, seen along z and, in volume, along y too; below, size and place over time."""
+    fibers = _fibers(run)
+    views = [(0, 1)] if run.metadata["scene"]["space"] == "plane" else [(0, 1), (0, 2)]
+    flat = [_Frames(fibers[..., view]) for view in views]
+    heights = [_FRAME * frames.shape for frames in flat]
+    figure = Figure(figsize=(PAGE_WIDTH, sum(heights) + 0.25 * len(views) + 2.6))
+    upper, lower = figure.subfigures(2, 1, height_ratios=[sum(heights) + 0.25 * len(views) + 0.2, 2.4])
+    grid = upper.subplots(len(views), SNAPSHOTS, squeeze=False, height_ratios=heights)
+    samples = _samples(run.t, flat[0].seen)
+    for row, view, frames in zip(grid, views, flat, strict=True):
+        _draw_snapshots(row, run, frames, view, samples)
+    for axes, k in zip(grid[0], samples, strict=True):
+        axes.set_title(f"t = {run.t[k]:.4g}", fontsize=7)
+    _draw_history(lower, run, fibers)
+    upper.suptitle(title, fontsize="medium")
+    return figure
+
+
+def _fibers(run: Trajectory) -> History:
+    """Positions (T, fibers, N, 3)."""
+    n_beads = run.metadata["scene"]["n_beads"]
+    return run.positions.reshape(len(run.t), -1, n_beads, 3)
+
+
+class _Frames:
+    """One view (T, fibers, N, 2) of a run: where each frame's middle is, and how far all of them reach."""
+
+    def __init__(self, flat: Array):
+        self.flat = flat
+        length = 2.0 * flat.shape[2]
+        self.middle = flat.mean(axis=(1, 2))
+        if (np.ptp(flat, axis=(0, 1, 2)) < _STILL * length).all():
+            still = 0.5 * (flat.max(axis=(0, 1, 2)) + flat.min(axis=(0, 1, 2)))
+            self.middle = np.broadcast_to(still, self.middle.shape)
+        self.seen = flat - self.middle[:, None, None]
+        self.reach = np.maximum(np.abs(self.seen).max(axis=(0, 1, 2)) + _MARGIN, 0.15 * length)
+        self.shape = float(self.reach[1] / self.reach[0])
+        if self.shape > 1.6:  # no frame is drawn taller than that
+            self.reach[0], self.shape = self.reach[1] / 1.6, 1.6
+
+
+def _samples(t: Array, seen: Array) -> Array:
+    """Snapshots spaced evenly half by time and half by how much the beads move in the frame."""
+    steps = np.sqrt((np.diff(seen, axis=0) ** 2).sum(-1).mean(axis=(1, 2)))
+    path = np.concatenate([[0.0], np.cumsum(steps)])
+    pace = t / t[-1] + path / max(path[-1], 1e-300)
+    return np.searchsorted(pace, np.linspace(0.0, pace[-1], SNAPSHOTS) * (1.0 - 1e-12))
+
+
+def _draw_snapshots(row: list[Axes], run: Trajectory, frames: _Frames, view: tuple, samples: Array) -> None:
+    """Frames of one size at one scale, without ticks; a bar in the first tells the scale."""
+    for axes, k in zip(row, samples, strict=True):
+        for fiber, color in zip(frames.flat[k], FIBER_COLORS * len(frames.flat[k]), strict=False):
+            axes.plot(*fiber.T, color=color, linewidth=1.6, solid_capstyle="round")
+            axes.plot(*fiber[0], color=color, marker="o", markersize=2.8)
+        x, y = frames.middle[k]
+        axes.set(xlim=(x - frames.reach[0], x + frames.reach[0]), ylim=(y - frames.reach[1], y + frames.reach[1]))
+        axes.set(aspect="equal", xticks=[], yticks=[])
+        _draw_wall(axes, run.metadata["scene"].get("wall"), view)
+    x, y = frames.middle[samples[0]] + frames.reach * [-0.85, 0.8]
+    row[0].plot([x, x + 20.0], [y, y], color=BLACK, linewidth=1.5)
+    row[0].annotate("20 a", (x + 22.0, y), fontsize=6, verticalalignment="center")
+    row[0].set_ylabel(f"{'xyz'[view[1]]} over x", fontsize=7)
+
+
+def _draw_wall(axes: Axes, wall: dict | None, view: tuple) -> None:
+    """The solid behind the wall, where the wall is seen edge-on."""
+    if wall is None:
+        return
+    point, normal = (np.array(wall[key])[list(view)] for key in ("point", "normal"))
+    if np.hypot(*normal) < 0.999:
+        return
+    along, behind = np.array([-normal[1], normal[0]]) * 1e4, -1e4 * normal
+    corners = [point - along, point + along, point + along + behind, point - along + behind]
+    axes.add_patch(Polygon(corners, facecolor="#d0d0d0", edgecolor=GREY, zorder=0.5))
+
+
+def _draw_history(figure: Figure, run: Trajectory, fibers: History) -> None:
+    """Left: end-to-end distance, and the mean height where it changes; right: extents along the axes."""
+    length = 2.0 * fibers.shape[2]
+    left, right = figure.subplots(1, 2)
+    for k, color in zip(range(fibers.shape[1]), FIBER_COLORS * fibers.shape[1], strict=False):
+        name = f"fiber {k + 1}" if fibers.shape[1] > 1 else "fiber"
+        ends = np.linalg.norm(fibers[:, k, -1] - fibers[:, k, 0], axis=-1) / length
+        left.plot(run.t, ends, color=color, label=name)
+        for axis, style in AXIS_STYLES.items():
+            extent = np.ptp(fibers[:, k, :, "xyz".index(axis)], axis=-1) / length
+            if extent.max() > _LEAST_EXTENT:
+                right.plot(run.t, np.maximum(extent, _LEAST_EXTENT), color=color, linestyle=style)
+    left.set(xlabel="time / (a/U$_s$)", ylabel="end-to-end distance / L", ylim=(0.0, 1.05))
+    right.set(xlabel="time / (a/U$_s$)", ylabel="extent / L", yscale="log")
+    height = fibers.mean(axis=(1, 2))[:, 1]
+    if np.ptp(height) > 1.0:
+        other = left.twinx()
+        other.grid(False)
+        other.plot(run.t, height, color=BLACK, linewidth=0.8, linestyle=(0, (1, 1)))
+        other.set_ylabel("mean height / a (dotted)")
+    for axis in "xyz" if fibers[..., 2].any() else "xy":
+        right.add_line(Line2D([], [], color=GREY, linestyle=AXIS_STYLES[axis], label=f"extent along {axis}"))
+    place_legend(figure, left, right, columns=5)
