@@ -1,6 +1,8 @@
 # The whole study as a graph of files. `snakemake -j2` makes everything; each of the target
 # rules simulations, dataset, autoencoders, node, forecasts and errors makes one stage and what
-# it needs, and check_simulations runs every simulation a second time.
+# it needs. Not part of everything: check_simulations runs every simulation a second time; scenes
+# runs and draws the files in scenes/; effects measures what each effect costs and changes;
+# third_dimension finds where planar motion ceases to be stable.
 
 
 configfile: "config.yaml"
@@ -14,6 +16,7 @@ include: "workflow/rules/node.smk"
 include: "workflow/rules/forecasts.smk"
 include: "workflow/rules/errors.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/scenes.smk"
 
 
 STUDY_RESULTS = [

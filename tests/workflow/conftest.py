@@ -31,6 +31,7 @@ class Checkout:
         text = run.stdout + run.stderr
         jobs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)}
         targets = {"all", "total", "simulations", "dataset", "autoencoders", "node", "forecasts", "errors"}
+        targets |= {"scenes", "effects", "third_dimension"}
         return {name: count for name, count in jobs.items() if name not in targets}
 
     def edit(self, path: str, old: str, new: str) -> None:
@@ -56,7 +57,7 @@ def check_out(folder: Path, config: Path) -> Checkout:
     folder.mkdir(parents=True)
     shutil.copy(REPOSITORY / "Snakefile", folder)
     shutil.copy(config, folder / "config.yaml")
-    for name in ("workflow", "envs", "profiles"):
+    for name in ("workflow", "envs", "profiles", "scenes"):
         shutil.copytree(REPOSITORY / name, folder / name)  # with the compiled kernels in __pycache__
     return Checkout(folder)
 
@@ -87,3 +88,9 @@ def empty(tmp_path) -> Checkout:
 def full(tmp_path) -> Checkout:
     """The real study before anything has run."""
     return check_out(tmp_path / "study", REPOSITORY / "config.yaml")
+
+
+@pytest.fixture(scope="session")
+def check_out_tiny():
+    """A function that copies the tiny study to a folder."""
+    return lambda folder: check_out(folder, TINY)

@@ -23,13 +23,16 @@ def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
 @pytest.mark.parametrize(
     ("target", "last"),
     [
-        ("simulations", {"simulate", "tabulate_trajectories"}),
+        ("simulations", {"simulate", "tabulate_trajectories", "tabulate_audit"}),
         ("dataset", {"simulate", "aggregate_dataset", "solve_terminal_shapes"}),
         ("autoencoders", {"train_autoencoder", "tabulate_reconstruction"}),
         ("node", {"train_node", "choose_forecast_model"}),
         ("forecasts", {"forecast_test_set", "forecast_by_lookup"}),
         ("errors", ERRORS | {"plot_reconstruction"}),
         ("check_simulations", {"check_simulation", "tabulate_checks"}),
+        ("scenes", {"simulate_scene", "plot_scene", "tabulate_scene_audit"}),
+        ("third_dimension", {"compare_third_dimension", "plot_third_dimension"}),
+        ("effects", {"measure_effects", "plot_effects", "benchmark_parts"}),
     ],
 )
 def test_target_rules_make_their_stage(empty, target, last):
@@ -41,9 +44,18 @@ def test_target_rules_make_their_stage(empty, target, last):
 
 def test_a_stage_plans_nothing_beyond_itself(empty):
     """Asking for the simulations must not start a training."""
-    assert set(empty.planned("simulations")) == {"simulate", "tabulate_trajectories"}
+    assert set(empty.planned("simulations")) == {"simulate", "tabulate_trajectories", "tabulate_audit"}
+    assert set(empty.planned("scenes")) == {"simulate_scene", "plot_scene", "tabulate_scene_audit"}
     assert set(empty.planned("dataset")) == {"simulate", "aggregate_dataset", "solve_terminal_shapes"}
     assert not {"train_node", "forecast_test_set"} & set(empty.planned("autoencoders"))
+
+
+def test_every_file_in_scenes_is_a_scene(empty):
+    """A user's own file in scenes/ is run and drawn like the nine examples."""
+    assert empty.planned("scenes")["simulate_scene"] == empty.planned("scenes")["plot_scene"] == 9
+    text = (empty.folder / "scenes/study.yaml").read_text(encoding="utf-8")
+    (empty.folder / "scenes/mine.yaml").write_text(text.replace("B: 1000", "B: 1200"), encoding="utf-8")
+    assert empty.planned("scenes")["simulate_scene"] == 10
 
 
 def test_a_second_run_has_nothing_to_do(finished):

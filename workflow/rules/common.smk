@@ -23,6 +23,7 @@ wildcard_constraints:
     dim=r"\d+",
     seed=r"\d+",
     model=r"(?!lookup)\w+",
+    scene=r"\w+",
 
 
 # With --sdm conda each job's own python is meant, otherwise the one that runs this workflow.
@@ -85,6 +86,15 @@ def forecaster_words(name):
     return " ".join(["--forecaster", name, node["recipe"], str(node["latent_dim"]), *files])
 
 
+def scene_files(scene):
+    """A scene's file, and the files beside it that scenes name: start shapes, effects of the user's."""
+    beside = [
+        path for path in (BASE / "scenes").glob("*") if path.suffix in (".csv", ".npy", ".py")
+    ]
+    return [here(path) for path in [BASE / "scenes" / f"{scene}.yaml", *sorted(beside)]]
+
+
+SCENES = sorted(path.stem for path in (BASE / "scenes").glob("*.yaml"))
 TEST_SETS = ("A", "B")
 FIGURES = ("reconstruction", "forecast_errors", "baselines", "error_distribution")
 NODES = config["node"]["models"]
@@ -108,6 +118,7 @@ def benchmarks():
         *(f"simulate/B{B}_k{k}" for split in STUDY.splits for B, k in STUDY.runs(split)),
         *splits,
         "tabulate_trajectories",
+        "tabulate_audit",
         *(f"train_autoencoder/{Path(folder).name}" for folder in AUTOENCODERS),
         "tabulate_reconstruction",
         *(f"train_node/{model}" for model in NODES),

@@ -51,16 +51,16 @@ rule plot_scene:
         " --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
-rule tabulate_audit:
+rule tabulate_scene_audit:
     input:
         sources("tabulate_audit"),
         trajectories=expand("results/scenes/{scene}.parquet", scene=SCENES),
     output:
         "results/tables/scene_audit.csv",
     log:
-        "results/logs/tabulate_audit.log",
+        "results/logs/tabulate_scene_audit.log",
     benchmark:
-        "results/benchmarks/tabulate_audit.tsv"
+        "results/benchmarks/tabulate_scene_audit.tsv"
     conda:
         "../../envs/analysis.yaml"
     threads: 1
@@ -76,7 +76,7 @@ rule tabulate_audit:
 rule scenes:
     input:
         expand("results/figures/scenes/{scene}.png", scene=SCENES),
-        rules.tabulate_audit.output,
+        rules.tabulate_scene_audit.output,
 
 
 rule compare_third_dimension:

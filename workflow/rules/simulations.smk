@@ -51,10 +51,33 @@ rule tabulate_trajectories:
         "sedfiber tabulate_trajectories {params.splits} -o {output} > {log} 2>&1"
 
 
+rule tabulate_audit:
+    input:
+        sources("tabulate_audit"),
+        trajectories=[trajectories(split) for split in STUDY.splits],
+    output:
+        "results/tables/audit.csv",
+    log:
+        "results/logs/tabulate_audit.log",
+    benchmark:
+        "results/benchmarks/tabulate_audit.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "tabulate what the study's scene left out"
+    shell:
+        "sedfiber tabulate_audit {input.trajectories} -o {output} > {log} 2>&1"
+
+
 rule simulations:
     input:
         [trajectories(split) for split in STUDY.splits],
         rules.tabulate_trajectories.output,
+        rules.tabulate_audit.output,
 
 
 rule check_simulation:

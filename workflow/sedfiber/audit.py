@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sedfiber._typing import History, State
+from sedfiber._typing import History, State, Times
 from sedfiber.physics.gaps import closest_distance, smallest_gap
 from sedfiber.physics.pair_forms import RPY, RPY_OVERLAP, coefficients
 from sedfiber.physics.system import System
@@ -17,6 +17,7 @@ from sedfiber.scene import Scene
 
 MOBILITY_CHANGE = 0.01  # relative change of a pair's mobility from which the overlap form matters
 STRETCH = 0.05  # bond strain from which a fiber is no longer an inextensible one
+AMPLIFIED = 100.0  # growth on the way from which out-of-plane disturbances matter, whatever the end
 _STATES = 64  # states along the way at which transverse rates are taken
 
 
@@ -43,8 +44,8 @@ class Verdict:
         return {"effect": self.effect, "matters": self.matters, "number": self.number, "words": self.words}
 
 
-def audit(scene: Scene, system: System, states: State) -> list[Verdict]:
-    """Weigh what ``scene`` left out on the states (T, beads d + 1) of its run."""
+def audit(scene: Scene, system: System, t: Times, states: State) -> list[Verdict]:
+    """Weigh what ``scene`` left out at the times (T,) and states (T, beads d + 1) of its run."""
     shapes = np.ascontiguousarray(system.to_shapes(states)[..., : scene.dim])
     found = []
     beads = scene.n_fibers * scene.n_beads
@@ -53,7 +54,7 @@ def audit(scene: Scene, system: System, states: State) -> list[Verdict]:
     if scene.contact is None and beads > 2:
         found.append(_contact(shapes, scene.n_beads))
     if _may_leave_plane(scene) and beads > 1:
-        found.append(_third_dimension(scene, system, states))
+        found.append(_third_dimension(scene, system, t, states))
     if scene.wall is None and scene.depth is not None and scene.gravity is not None:
         found.append(_bottom(scene, system.to_positions(states)))
     if scene.stretching is not None and scene.n_beads > 1:
@@ -88,13 +89,21 @@ def _may_leave_plane(scene: Scene) -> bool:
     return scene.space == "plane" and scene.noise is None and not scene.own and not curved
 
 
-def _third_dimension(scene: Scene, system: System, states: State) -> Verdict:
-    """Out-of-plane disturbances: their leading rate at the end, and the largest along the way."""
+def _third_dimension(scene: Scene, system: System, t: Times, states: State) -> Verdict:
+    """Out-of-plane disturbances: their leading rate at the end, the largest along the way, and what it adds up to.
+
+    The rates are those of a state held still, so their sum bounds the growth only roughly.
+    """
     chosen = np.unique(np.linspace(0, len(states) - 1, _STATES).astype(int))
     rates = transverse_rates(scene, system, states[chosen])
-    meaning = f"U_s/a, leading out-of-plane rate at the end; {rates.max():.3g} at most along the way"
+    growth = float(np.exp(min(np.trapezoid(np.maximum(rates, 0.0), t[chosen]), 700.0)))
+    meaning = (
+        f"U_s/a, leading out-of-plane rate at the end; {rates.max():.3g} at most along the way, "
+        f"growth up to {growth:.2g} times"
+    )
     remedy = "space: volume, with a disturbance"
-    return Verdict("third dimension", bool(rates[-1] > 0.0), float(rates[-1]), meaning, remedy)
+    matters = bool(rates[-1] > 0.0 or growth > AMPLIFIED)
+    return Verdict("third dimension", matters, float(rates[-1]), meaning, remedy)
 
 
 def _bottom(scene: Scene, positions: History) -> Verdict:

@@ -54,7 +54,7 @@ def simulate(scene: Scene, numerics: Numerics | None = None, t_end: float | None
     metadata = _metadata(scene, numerics, march) | {
         "checks": checks.to_dict(),
         "settling_time": settled,
-        "audit": [verdict.to_dict() for verdict in audit(scene, system, states)],
+        "audit": [verdict.to_dict() for verdict in audit(scene, system, t, states)],
     }
     return Trajectory(t, system.to_positions(states), metadata)
 

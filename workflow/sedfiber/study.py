@@ -68,8 +68,23 @@ class Study:
     @property
     def steady_options(self) -> str:
         """Options of ``sedfiber solve_terminal_shapes``."""
+        return as_options(self._fiber)
+
+    @property
+    def third_dimension_options(self) -> str:
+        """Options of ``sedfiber compare_third_dimension`` but for ℬ."""
+        how = {key: value for key, value in self.config["third_dimension"].items() if key != "B"}
+        return as_options(self._fiber | how)
+
+    @property
+    def effects_options(self) -> str:
+        """Options of ``sedfiber measure_effects``."""
+        return as_options(self._fiber | self.config["effects"])
+
+    @property
+    def _fiber(self) -> dict[str, Any]:
         scene = self.config["scene"]
-        return as_options({key: scene[key] for key in ("n_beads", "hydrodynamics")})
+        return {key: scene[key] for key in ("n_beads", "hydrodynamics")}
 
 
 def number_name(value: float) -> str:

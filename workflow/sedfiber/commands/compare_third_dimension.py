@@ -22,9 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--theta0", default=0.7853981633974483, help="start of the runs, radians (π/4)")
     parser.add_argument("--n-beads", default=Scene.n_beads, help=f"odd number of beads ({Scene.n_beads})")
     parser.add_argument("--hydrodynamics", default=Scene.hydrodynamics, help=f"as of simulate ({Scene.hydrodynamics})")
-    parser.add_argument(
-        "--amplitude", default=1e-4, help="largest displacement out of the plane at the start, a (1e-4)"
-    )
+    parser.add_argument("--amplitude", default=1e-4, help="displacement out of the plane at the start, a (1e-4)")
     parser.add_argument("--t-end", default=800, help="end of the runs in volume, a/U_s (800)")
     parser.add_argument("--growth", type=Path, required=True, help="CSV file for the amplitudes over time")
     parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write, a row for each ℬ")

@@ -1,10 +1,10 @@
 """``sedfiber simulate``: integrate a scene, of a file or of options, and write its trajectory."""
 
 import argparse
-import math
 from dataclasses import replace
 from pathlib import Path
 
+from sedfiber.angles import angle_index, angle_of
 from sedfiber.atomic_file import require_writable
 from sedfiber.errors import InputError
 from sedfiber.numerics import DEFAULT_INTEGRATOR, Numerics
@@ -13,9 +13,7 @@ from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
 from sedfiber.scene_file import read_scene
 from sedfiber.simulation import simulate
 from sedfiber.trajectory_file import write_trajectory
-from sedfiber.validation import whole_number
 
-ANGLES_PER_HALF_TURN = 48  # the study's grid of inclinations is k π/48
 _OPTIONS = ("B", "theta0", "n_beads", "space", "hydrodynamics", "tilt", "seed")
 
 
@@ -43,7 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Validate everything, integrate, write, and say what left-out effects would have done."""
-    index = None if args.angle_index is None else _angle_index(args.angle_index)
+    index = None if args.angle_index is None else angle_index(args.angle_index)
     scene, numerics = _requested(args, index)
     require_writable(args.output)
     trajectory = simulate(scene, numerics)
@@ -57,7 +55,7 @@ def _requested(args: argparse.Namespace, index: int | None) -> tuple[Scene, Nume
     """The file's scene with the options' values, or the options' alone."""
     what = _given(args, _OPTIONS)
     if index is not None:
-        what["theta0"] = index * math.pi / ANGLES_PER_HALF_TURN
+        what["theta0"] = angle_of(index)
     how = _given(args, Numerics.__dataclass_fields__)
     if args.scene is not None:
         scene, numerics = read_scene(args.scene)
@@ -72,9 +70,3 @@ def _given(args: argparse.Namespace, keys: tuple[str, ...]) -> dict:
     """The options that were given; the scene's or the defaults stand for the rest."""
     values = {key: getattr(args, key) for key in keys}
     return {key: value for key, value in values.items() if value is not None}
-
-
-def _angle_index(value: str) -> int:
-    """k in θ₀ = k π/48; files and keys hold k, never a rounded angle."""
-    most = ANGLES_PER_HALF_TURN
-    return whole_number("angle_index", value, f"a whole number from 0 to {most}", 0, most)

@@ -4,6 +4,7 @@ import numpy as np
 
 from sedfiber.scene import Scene
 
+_UNLOADED = 0.01  # where nothing pulls, tolerances do
 _CLEARANCE = 2.0  # over the estimate, for what the estimate leaves out
 
 
@@ -25,7 +26,7 @@ def strain_bound(scene: Scene) -> float | None:
     if scene.shape is not None or scene.disturbance is not None:
         bonds = np.diff(scene.start().reshape(-1, n, scene.dim), axis=1)
         bound += float(np.abs(0.5 * np.linalg.norm(bonds, axis=2) - 1.0).max(initial=0.0))
-    return bound
+    return bound if scene.gravity is not None else max(bound, _UNLOADED)
 
 
 def _other_loads(scene: Scene) -> float:

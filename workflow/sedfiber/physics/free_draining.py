@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numba import njit
 
 from sedfiber._typing import Band, Matrix, Positions
 
@@ -28,10 +29,12 @@ class FreeDraining:
         add_band(band, jac)
 
 
+@njit(cache=True)
 def add_band(band: Band, jac: Matrix) -> None:
     """Add a band to a matrix, at least (N d, N d)."""
-    _, d, _, n = band.shape
-    for offset in range(-2, 3):
-        for j in range(max(0, -offset), min(n, n - offset)):
-            i = j + offset
-            jac[i * d : i * d + d, j * d : j * d + d] += band[offset + 2, :, :, j]
+    reach, d, n = band.shape[0] // 2, band.shape[1], band.shape[3]
+    for j in range(n):
+        for i in range(max(0, j - reach), min(n, j + reach + 1)):
+            for k in range(d):
+                for w in range(d):
+                    jac[i * d + k, j * d + w] += band[i - j + reach, k, w, j]

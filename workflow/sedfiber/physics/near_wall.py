@@ -1,9 +1,9 @@
 """A mobility near a no-slip plane: that of unbounded fluid, and the wall's correction."""
 
 import numpy as np
+from numba import njit
 
 from sedfiber._typing import Band, Matrix, Positions
-from sedfiber.physics.free_draining import add_band
 from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.wall import WallCorrection
 
@@ -32,8 +32,19 @@ class NearWall:
         size = x.size
         self.free.linearise(x, force, band, u, jac)
         self.wall.add_velocity(x, force, u)
-        correction, force_jac = np.zeros((size, size)), np.zeros((size, size))
+        correction = np.zeros((size, size))
         self.wall.add_matrix(x, correction)
-        add_band(band, force_jac)
-        jac[:size, :size] += correction @ force_jac
+        _add_product(correction, band, jac)
         self.wall.add_gradient(x, force, jac)
+
+
+@njit(cache=True)
+def _add_product(m: Matrix, band: Band, jac: Matrix) -> None:
+    """Add ``m ∂F/∂x`` to ``jac``, at least (N d, N d), for a banded ``∂F/∂x``."""
+    reach, d, n = band.shape[0] // 2, band.shape[1], band.shape[3]
+    for r in range(n * d):
+        for j in range(n):
+            for i in range(max(0, j - reach), min(n, j + reach + 1)):
+                for w in range(d):
+                    for v in range(d):
+                        jac[r, j * d + w] += m[r, i * d + v] * band[i - j + reach, v, w, j]

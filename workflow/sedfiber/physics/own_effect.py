@@ -2,12 +2,13 @@
 
 A user's class has ``force(x)`` (N, d) → (N, d), or ``velocity(x)`` for a flow, of laboratory
 positions; optionally ``energy(x)``, whose fall is then part of the energy balance.  Its Jacobian
-is taken by central differences with a step of 1e-6 a, right to about ten digits: an
-implicit method needs it for speed, and the solution does not depend on it.
+is taken by central differences with a step of 1e-5 a, right to nine digits within 100 a of the
+origin: an implicit method needs it for speed, and the solution does not depend on it.
 """
 
 import hashlib
 import importlib.util
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +18,7 @@ from sedfiber._typing import Matrix, Positions
 from sedfiber.errors import InputError, NumericalError
 from sedfiber.scene_parts import Own
 
-_STEP = 1e-6  # a; the cube root of the rounding error balances the two errors of a central difference
+_STEP = 1e-5  # a; about the cube root of the rounding error, which balances the two errors of a central difference
 
 
 class _OwnEffect:
@@ -78,7 +79,7 @@ def load_own(own: Own) -> OwnForce | OwnFlow:
         raise InputError(f"own.file: {own.file!r} does not exist; give the path of a Python file")
     name = f"sedfiber_own_{hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:12]}"
     spec = importlib.util.spec_from_file_location(name, path)
-    module = importlib.util.module_from_spec(spec)
+    module = sys.modules[name] = importlib.util.module_from_spec(spec)  # where a dataclass looks for its module
     try:
         spec.loader.exec_module(module)
         effect = getattr(module, own.effect)(**(own.parameters or {}))
