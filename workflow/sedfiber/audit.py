@@ -53,7 +53,7 @@ def audit(scene: Scene, system: System, t: Times, states: State) -> list[Verdict
         found.append(_overlap_form(shapes))
     if scene.contact is None and beads > 2:
         found.append(_contact(shapes, scene.n_beads))
-    if _may_leave_plane(scene) and beads > 1:
+    if _may_leave_plane(scene):
         found.append(_third_dimension(scene, system, t, states))
     if scene.wall is None and scene.depth is not None and scene.gravity is not None:
         found.append(_bottom(scene, system.to_positions(states)))
@@ -86,7 +86,7 @@ def _contact(shapes: History, n_beads: int) -> Verdict:
 def _may_leave_plane(scene: Scene) -> bool:
     """Planar scenes that also make sense in volume, and whose end is a state rather than a draw."""
     curved = scene.bending is not None and scene.bending.curvature != 0.0
-    return scene.space == "plane" and scene.noise is None and not scene.own and not curved
+    return scene.space == "plane" and scene.n_beads > 2 and scene.noise is None and not scene.own and not curved
 
 
 def _third_dimension(scene: Scene, system: System, t: Times, states: State) -> Verdict:

@@ -98,7 +98,7 @@ def _from_file(path: Path) -> Positions:
         return read_trajectory(path).positions[-1]
     try:
         return np.load(path, allow_pickle=False) if path.suffix == ".npy" else np.loadtxt(path, delimiter=",", ndmin=2)
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, EOFError) as error:
         why = str(error).splitlines()[0]
         raise InputError(f"shape.file: cannot read {str(path)!r} ({why}); give .csv, .npy or a trajectory") from None
 

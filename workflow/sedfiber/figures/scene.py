@@ -65,7 +65,7 @@ def _samples(t: Array, seen: Array) -> Array:
     """Snapshots spaced evenly half by time and half by how much the beads move in the frame."""
     steps = np.sqrt((np.diff(seen, axis=0) ** 2).sum(-1).mean(axis=(1, 2)))
     path = np.concatenate([[0.0], np.cumsum(steps)])
-    pace = t / t[-1] + path / max(path[-1], 1e-300)
+    pace = t / max(t[-1], 1e-300) + path / max(path[-1], 1e-300)
     return np.searchsorted(pace, np.linspace(0.0, pace[-1], SNAPSHOTS) * (1.0 - 1e-12))
 
 

@@ -10,6 +10,8 @@ Fixman's midpoint gives the drift ``kT ∇·M`` on average without a divergence 
 vanishes in unbounded fluid in volume, and does not near a wall or in a plane).  The implicit
 midpoint keeps the equilibrium of stiff springs and bends, ``⟨U⟩ = kT/2`` a degree of freedom,
 exact at any step in the linear limit, where an implicit Euler step would freeze them.  Weak order one.
+Beyond that limit a step must be well below ``√(2/(kT ℰ))``: the kicks across a bond lengthen it by
+about ``kT Δt``, which has to be little against its thermal stretch ``√(2kT/ℰ)``.
 Sources: Ermak & McCammon 1978; Fixman 1978; implicit midpoint: Delong, Sun, Griffith,
 Vanden-Eijnden & Donev 2014.
 """
@@ -32,7 +34,8 @@ class StochasticMidpoint(March):
     def __init__(self, system: System, tolerances: Tolerances, temperature: float, step: float, seed: int):
         super().__init__(system, tolerances)
         self._temperature, self._step = temperature, step
-        self._random = np.random.default_rng(seed)
+        # a stream of its own: the start draws its tilt and disturbance from the seed itself
+        self._random = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(1,)))
 
     def states(self, start: State, interval: float) -> Iterator[State]:
         steps = round(interval / self._step)
@@ -42,7 +45,8 @@ class StochasticMidpoint(March):
             for _ in range(steps):
                 x = self._advance(x, t)
                 t += interval / steps
-            self.require_finite(t, x)
+                if not np.isfinite(x).all():
+                    raise self.failed(t, "a bead position is not finite", "give a smaller noise.step")
             yield self.system.to_state(x)
 
     def _positions(self, y: State) -> Positions:

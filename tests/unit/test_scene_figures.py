@@ -1,0 +1,74 @@
+"""Pictures of scenes and of the third dimension: every kind of scene, the same bytes twice, bad input refused."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from sedfiber import Scene, simulate, write_trajectory
+from sedfiber.cli import main
+from sedfiber.numerics import Numerics
+
+KINDS = {
+    "plane": {},
+    "volume": {"space": "volume", "disturbance": {"amplitude": 0.1}},
+    "wall seen edge-on": {"space": "volume", "wall": {"point": [0, -40, 0]}},
+    "oblique wall": {"space": "volume", "wall": {"point": [0, -40, 0], "normal": [0, 1, 1]}},
+    "two fibers": {"fibers": [{"place": [0, 0]}, {"place": [0, 20], "theta0": 0.0}]},
+    "at rest": {"gravity": None},
+}
+
+
+def draw(folder, run):
+    """Both files of one picture, as bytes, by the command."""
+    write_trajectory(run, folder / "run.parquet")
+    files = [folder / "run.svg", folder / "run.png"]
+    words = ["plot_scene", folder / "run.parquet", "--title", "a run", "--svg", files[0], "--png", files[1]]
+    assert main([str(word) for word in words]) == 0
+    return [path.read_bytes() for path in files]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_every_kind_of_scene_is_drawn_twice_alike(kind, tmp_path):
+    """Plane, volume, walls from every side, several fibers, a run in which nothing moves."""
+    run = simulate(Scene(1000, 0.5, 7, **KINDS[kind]), Numerics(t_end=3))
+    first = draw(tmp_path, run)
+    assert first[0].startswith(b"<?xml") and first[1].startswith(b"\x89PNG")
+    assert draw(tmp_path, run) == first
+
+
+def test_a_run_of_one_sample_is_drawn(tmp_path):
+    """The start alone: eight frames of it."""
+    assert draw(tmp_path, simulate(Scene(1000, 0.5, 7), Numerics(interval=1.0), t_end=0.5))
+
+
+def growth_tables(folder, place="threshold"):
+    """A made-up threshold between two ℬ."""
+    rows = [(1000.0, None, -0.02, -0.02, 7e-5), (3700.0, place, 0.0, 0.0, 7e-5), (9000.0, None, 0.02, 0.02, 7e-5)]
+    columns = ["B", "place", "predicted_rate", "measured_rate", "amplitude_start"]
+    pd.DataFrame(rows, columns=columns).to_csv(folder / "table.csv", index=False)
+    t = np.arange(50.0)
+    growth = [pd.DataFrame({"B": B, "t": t, "amplitude": 7e-5 * np.exp(rate * t)}) for B, _, rate, *_ in rows]
+    pd.concat(growth).to_csv(folder / "growth.csv", index=False)
+
+
+def draw_third_dimension(folder):
+    """Exit status of the command."""
+    files = ["--svg", str(folder / "x.svg"), "--png", str(folder / "x.png")]
+    return main(["plot_third_dimension", str(folder / "table.csv"), "--growth", str(folder / "growth.csv"), *files])
+
+
+def test_the_third_dimension_is_drawn_twice_alike(tmp_path):
+    """From its two tables alone."""
+    growth_tables(tmp_path)
+    assert draw_third_dimension(tmp_path) == 0
+    first = (tmp_path / "x.svg").read_bytes()
+    assert draw_third_dimension(tmp_path) == 0
+    assert (tmp_path / "x.svg").read_bytes() == first
+
+
+def test_a_table_without_a_threshold_is_refused(tmp_path, capsys):
+    """One line; nothing drawn."""
+    growth_tables(tmp_path, place="nowhere")
+    assert draw_third_dimension(tmp_path) == 1
+    assert "place = threshold" in capsys.readouterr().err
+    assert not (tmp_path / "x.svg").exists()
