@@ -7,7 +7,7 @@ from sedfiber._typing import History, Times
 
 @dataclass(frozen=True)
 class Trajectory:
-    """``t`` (T,) in a/U_s, ``positions`` (T, N, 3) in a, ``metadata`` of plain values.
+    """``t`` (T,) in a/U_s, ``positions`` (T, beads, 3) in a, fiber after fiber, ``metadata`` of plain values.
 
     ``metadata`` holds the scene, both ℬ numbers, how the run was made, its counters, its
     checks and the settling time: deterministic facts only.
@@ -19,17 +19,22 @@ class Trajectory:
 
     @property
     def n_beads(self) -> int:
-        """Number of beads N."""
-        return self.positions.shape[1]
+        """Number of beads N of one fiber."""
+        return self.metadata.get("scene", {}).get("n_beads", self.positions.shape[1])
+
+    @property
+    def fibers(self) -> History:
+        """Positions fiber by fiber, (T, fibers, N, 3)."""
+        return self.positions.reshape(len(self.t), -1, self.n_beads, 3)
 
     @property
     def centre(self) -> History:
-        """Position of the centre bead, (T, 3)."""
+        """Position of the centre bead, of the first fiber if there are several, (T, 3)."""
         return self.positions[:, self.n_beads // 2]
 
     @property
     def shape(self) -> History:
-        """Positions relative to the centre bead, (T, N, 3)."""
+        """Positions relative to the centre bead, (T, beads, 3)."""
         return self.positions - self.centre[:, None]
 
     @property

@@ -21,7 +21,7 @@ _FRAME = PAGE_WIDTH / SNAPSHOTS  # inches
 
 def draw_scene(run: Trajectory, title: str) -> Figure:
     """A row of snapshots, seen along z and, in volume, along y too; below, size and place over time."""
-    fibers = _fibers(run)
+    fibers = run.fibers
     views = [(0, 1)] if run.metadata["scene"]["space"] == "plane" else [(0, 1), (0, 2)]
     flat = [_Frames(fibers[..., view]) for view in views]
     heights = [_FRAME * frames.shape for frames in flat]
@@ -36,12 +36,6 @@ def draw_scene(run: Trajectory, title: str) -> Figure:
     _draw_history(lower, run, fibers)
     upper.suptitle(title, fontsize="medium")
     return figure
-
-
-def _fibers(run: Trajectory) -> History:
-    """Positions (T, fibers, N, 3)."""
-    n_beads = run.metadata["scene"]["n_beads"]
-    return run.positions.reshape(len(run.t), -1, n_beads, 3)
 
 
 class _Frames:
