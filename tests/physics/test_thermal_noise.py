@@ -64,7 +64,7 @@ each_place = pytest.mark.parametrize("place", PLACES)
 
 
 def bent_chain_in(place):
-    """Five beads with overlaps under gravity, springs and bending: system and positions, the lowest 1.2 above a wall."""
+    """Five beads with overlaps, and gravity, springs and bending: system and positions, the lowest 1.2 above a wall."""
     space, wall = PLACES[place]
     x = bent_chain(5, 5, DIMS[space], bend=0.6, stretch=0.15)
     scene = chain_scene(5, space=space, wall=wall, gravity={})
@@ -215,44 +215,35 @@ def test_heights_above_a_wall_are_boltzmanns():
     """Heavy beads above a wall with contact: heights have the density ``exp(−U/kT)``, by quadrature.
 
     ``U = G h + S (H² − h²)⁵/(10 (H² − 1)⁴)``, the integral of weight and contact force.  Fifteen beads
-    1000 a apart do as fifteen runs of one; they start at their quantiles.  Mean height and the occupation of four
-    equally probable layers are within 4 standard errors.  Without the drift the density would be
-    ``exp(−U/kT)/M_zz``: the mean is more than 6 away from that one's.
+    1000 a apart do as fifteen runs of one, and start at their quantiles.  Mean height and the occupation
+    of four equally probable layers are within 4 standard errors, about 0.005 a and 3 % of a layer; the
+    step's own error, first order, is 0.003 a.  Without the drift the density would be ``exp(−U/kT)/M_zz``: the
+    mean is more than 6 errors away from that one's.
     """
-    n, weight, strength, top = 15, 2.0, 60.0, 1.5
-    h = np.linspace(0.8, 15.0, 20001)  # exp(−U/kT) at 0.8 is 1e-9 of its maximum
+    n, weight, strength, top = 15, 4.0, 20.0, 2.0
+    h = np.linspace(0.8, 15.0, 20001)  # below it is 1e-5 of the whole
     barrier = np.clip(top**2 - h**2, 0, None) ** 5 / (10 * (top**2 - 1) ** 4)
     density = np.exp(-weight * h - strength * barrier)
     without_drift = density / (1 - 9 / (8 * h) + 1 / (2 * h**3) - 1 / (8 * h**5))
     expected, wrong = ((h * p).sum() / p.sum() for p in (density, without_drift))
     share = np.cumsum(density) / density.sum()
 
+    wall = {"point": (0.0, -60.0, 0.0)}
+    contact = {"strength": strength, "reach": 2 * top}
+    parts = {"stretching": None, "bending": None, "gravity": {"strength": weight}}
+    system = assemble(chain_scene(n, space="volume", wall=wall, contact=contact, **parts))
     start = np.zeros((n, 3))
     start[:, 0] = 1000.0 * np.arange(n)
-    start[:, 1] = np.interp((np.random.default_rng(1).permutation(n) + 0.5) / n, share, h)
-    scene = Scene(
-        1000.0,
-        0.0,
-        n,
-        space="volume",
-        hydrodynamics="RPY-overlap",
-        gravity={"strength": weight},
-        stretching=None,
-        bending=None,
-        shape=start.tolist(),
-        wall={"point": (0.0, -start[n // 2, 1], 0.0)},
-        contact={"strength": strength, "reach": 2 * top},
-        noise={"peclet": 1.0, "step": 0.025},
-        seed=21,
-    )
-    run = simulate(scene, Numerics(interval=0.1), t_end=300.0)
-    heights = run.positions[..., 1] + start[n // 2, 1]
-    mean, error = block_average(heights.mean(1))
+    start[:, 1] = np.interp((np.random.default_rng(1).permutation(n) + 0.5) / n, share, h) - 60.0
+    march = march_of(system, 1.0, 0.01, seed=21)
+    states = np.array(list(islice(march.states(system.to_state(start), 0.05), 3200)))
+    heights = system.to_positions(states)[..., 1] + 60.0
+    mean, error = block_average(heights.mean(1), 40)
     assert abs(mean - expected) < 4 * error
     assert abs(mean - wrong) > 6 * error
     layer = np.searchsorted(np.interp([0.25, 0.5, 0.75], share, h), heights)
     occupied = np.stack([(layer == k).mean(1) for k in range(4)], axis=1)
-    assert deviation(block_average(occupied), 0.25) < 4
+    assert deviation(block_average(occupied, 40), 0.25) < 4
 
 
 def bond_energy(dim, modulus):
@@ -282,7 +273,7 @@ def measure_fibers(space, hydrodynamics, step, t_end, seed):
     scene = chain_scene(3, space=space, hydrodynamics=hydrodynamics, fibers=places)
     system = assemble(scene)
     march = march_of(system, 1.0, step, seed)
-    interval, settled = 0.08, 3.0  # the slowest of these, the angle, forgets at a rate of 4.5
+    interval, settled = max(0.08, step), 3.0  # the slowest of these, the angle, forgets at a rate of 4.5
     states = march.states(system.to_state(scene.start()), interval)
     states = np.array(list(islice(states, round(settled / interval), round((settled + t_end) / interval))))
     bonds = np.diff(system.to_positions(states).reshape(len(states), 10, 3, 3), axis=2)
@@ -294,16 +285,16 @@ def measure_fibers(space, hydrodynamics, step, t_end, seed):
 @pytest.mark.parametrize("hydrodynamics", ["none", "RPY-overlap"])
 @each_space
 def test_bonds_and_angles_have_their_thermal_energy(space, hydrodynamics):
-    """Equipartition of a phantom chain at κ = ℰ/(8kT) = 3: ⟨cos θ⟩ is I₁(κ)/I₀(κ) in the plane and coth κ − 1/κ
-    in volume; the energy of a bond is that of its quadrature.  Hydrodynamics changes neither.
+    """Equipartition of a phantom chain at κ = ℰ/(8kT) = 3, which hydrodynamics does not change.
 
-    Mean bending energy, κ (1 − ⟨cos θ⟩), and bond energy within 4 standard errors, which are 2 % to 4 % and 1 % to 2 %;
-    the step's own error, first order, is about one of them.
+    ⟨cos θ⟩, and with it the bending energy κ (1 − ⟨cos θ⟩), is I₁(κ)/I₀(κ) in the plane and coth κ − 1/κ
+    in volume; the energy of a bond is that of its quadrature.  Both within 4 standard errors, at most
+    6 % of either energy; the step's own error, first order, is at most 2 % of the bond's.
     """
     dim, seed = DIMS[space], 31
-    angles, bonds = measure_fibers(space, hydrodynamics, 0.01, 60.0, seed)
+    angles, bonds = measure_fibers(space, hydrodynamics, 0.01, 80.0, seed)
     cosine, error = block_average(angles)
-    assert error < 0.04 * (1 - cosine)
+    assert error < 0.06 * (1 - cosine)
     assert abs(cosine - mean_cosine(dim, MODULUS / 8)) < 4 * error
     energy, error = block_average(bonds)
     assert error < 0.025 * energy
@@ -318,7 +309,7 @@ def test_error_of_a_mean_falls_with_the_step():
     steps = (0.08, 0.04, 0.02)
     errors = []
     for step in steps:
-        energy, error = block_average(measure_fibers("volume", "RPY-overlap", step, 160.0, seed=41)[1])
+        energy, error = block_average(measure_fibers("volume", "RPY-overlap", step, 130.0, seed=41)[1])
         errors.append(energy - bond_energy(3, MODULUS))
         assert errors[-1] > 2 * error
     assert 0.5 < np.polyfit(np.log(steps), np.log(errors), 1)[0] < 2
@@ -326,10 +317,10 @@ def test_error_of_a_mean_falls_with_the_step():
 
 @each_space
 def test_a_stiff_fiber_keeps_its_energy_at_large_steps(space):
-    """ℰ Δt = 20, an explicit scheme's limit being 1: kT/2 for each of 4 bonds and of 3 (d − 1) bends, within 4 standard
-    errors of about 3 %, with the anharmonic corrections of the exact averages.
+    """At ℰ Δt = 20, twenty times an explicit scheme's limit: kT/2 for each of 4 bonds and of 3 (d − 1) bends.
 
-    ℰ/kT = 1e6, so that the linear theory of the implicit midpoint holds.
+    ℰ/kT = 1e6, so that the linear theory of the implicit midpoint holds; within 4 standard errors of
+    at most 5 % of the exact averages.
     """
     modulus, dim = 1e6, DIMS[space]
     scene = chain_scene(5, modulus, space=space)
@@ -390,7 +381,7 @@ def test_linear_springs_have_their_equilibrium_at_any_step():
     inverse = np.linalg.inv(root)
     system = LinearMotion(root @ root.T, inverse.T @ turn @ np.diag(rates / step) @ turn.T @ inverse)
     assert np.allclose(np.sort(np.linalg.eigvals(system.m @ system.k).real), np.sort(rates / step))
-    states = np.array(list(islice(march_of(system, temperature, step, 61).states(np.zeros(3), step), 200, 20200)))
+    states = np.array(list(islice(march_of(system, temperature, step, 61).states(np.zeros(3), step), 200, 12200)))
     covariance = block_average(states[:, :, None] * states[:, None, :])
     assert deviation(covariance, temperature * np.linalg.inv(system.k)) < 5
     stiff = (states @ inverse.T @ turn)[:, 0]  # the mode's energy is its rate times its square over two

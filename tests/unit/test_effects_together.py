@@ -102,12 +102,12 @@ def systems(tmp_path_factory):
 
 
 def positions(name, seed, closest=1.2):
-    """Crumpled fibers in each other's reach, (beads, d); with a wall the lowest bead at height 1.5."""
+    """Crumpled fibers in each other's reach off the origin, (beads, d); with a wall the lowest bead at height 1.5."""
     values, dim = SCENES[name], 2 if SCENES[name]["space"] == "plane" else 3
     fibers = [crumpled_chain(seed + k, N, dim, closest) for k in range(len(values.get("fibers", [0])))]
     for one in fibers[1:]:
         one += (fibers[0].max(axis=0) - one.min(axis=0)) * np.eye(dim)[1] + 1.5 * np.eye(dim)[1]
-    x = np.vstack(fibers)
+    x = np.vstack(fibers) + np.array([1.7, -0.6, 1.1])[:dim]
     return x if "wall" not in values else x + (1.5 - heights(x).min()) * np.array(WALL["normal"])
 
 
@@ -124,6 +124,25 @@ def scale(system, x):
 def where(holds):
     """Parametrize a test by the scenes for which ``holds(values)``."""
     return pytest.mark.parametrize("name", [name for name, values in SCENES.items() if holds(values)])
+
+
+@where(lambda values: True)
+def test_a_state_moves_as_its_positions_do(systems, name):
+    """Rates of the state at any place are ``M F + u∞`` of the laboratory positions, and the work's is ``F·ẋ``."""
+    system, x = systems(name), positions(name, 7)
+    rows = system.rhs(0.0, system.to_state(x))
+    u = rows[:-1].reshape(x.shape) + rows[:-1].reshape(x.shape)[system.centre]
+    u[system.centre] = rows[:-1].reshape(x.shape)[system.centre]
+    force, drives = system.force(x), np.zeros_like(x)
+    for part in system.drives:
+        part.add_force(x, drives)
+    carried = np.zeros_like(x)
+    for flow in system.flows:
+        flow.add_velocity(x, carried)
+    expected = (system.mobility.matrix(x) @ force.ravel()).reshape(x.shape) + carried
+    assert_allclose(u, expected, rtol=0, atol=1e-12 * scale(system, x))
+    power = ((force - drives) * expected).sum()
+    assert rows[-1] == pytest.approx(power, rel=1e-11, abs=1e-10 * scale(system, x))
 
 
 @where(lambda values: True)

@@ -1,5 +1,6 @@
 """Effects that a user brings: the page about them as it stands, and what is done with one that is wrong."""
 
+import hashlib
 import re
 import subprocess
 import sys
@@ -11,7 +12,7 @@ from numpy.testing import assert_allclose
 
 import reference
 from problems import bent_chain
-from sedfiber import Scene, read_scene, read_trajectory, simulate
+from sedfiber import InputError, Numerics, Scene, read_scene, read_trajectory, simulate
 from sedfiber.cli import main
 from sedfiber.physics.assembly import assemble
 from sedfiber.physics.own_effect import OwnFlow, OwnForce, load_own
@@ -71,6 +72,27 @@ class Nan:
 class Later:
     def velocity(self, x):
         return np.where(x < -5.0, np.inf, 0.0)
+
+class RaisesLater:
+    def force(self, x):
+        raise ValueError("no force\\nat all")
+
+class Text:
+    def velocity(self, x):
+        return "abc"
+
+class EnergyRaises:
+    def force(self, x):
+        return 0.0 * x
+
+    def energy(self, x):
+        return x[:, 1]
+
+class Both:
+    def force(self, x):
+        return 0.0 * x
+
+    velocity = force
 
 class Neither:
     forces = velocities = None
@@ -171,6 +193,10 @@ def test_a_bead_stays_on_its_streamline(page):
         ("{file: wrong.py, effect: Fewer}", r"own: Fewer returned shape \(4, 2\) .*; return finite .* \(5, 2\)"),
         ("{file: wrong.py, effect: One}", r"own: One returned shape \(\) "),
         ("{file: wrong.py, effect: Nothing}", r"own: Nothing returned shape \(\) "),
+        ("{file: wrong.py, effect: RaisesLater}", "own: RaisesLater failed .ValueError: no force at all.; it is given"),
+        ("{file: wrong.py, effect: Text}", "own: Text failed .ValueError: "),
+        ("{file: wrong.py, effect: EnergyRaises}", "own: the energy of EnergyRaises failed .TypeError: "),
+        ("{file: wrong.py, effect: Both}", r"own.effect: 'Both' has both force\(x\) and velocity\(x\); make it two"),
         ("{file: wrong.py, effect: Nan}", "own: Nan returned .* a number that is not finite; "),
         ("{file: wrong.py, effect: Later}", "own: Later returned .* a number that is not finite; "),
         ("{file: analytic.py, effect: WrongEnergy}", "check failed: energy imbalance 0.0[0-9]+ is above its bound"),
@@ -244,3 +270,20 @@ def test_own_copy_of_gravity_moves_a_fiber_as_gravity_does(effects, space):
     assert_allclose(own.positions, package.positions, rtol=0, atol=1e-6)
     assert np.ptp(package.centre[:, 1]) > 100
     assert own.metadata["checks"]["energy_imbalance"] < 1e-6
+
+
+def test_the_record_holds_the_files_checksum(tmp_path):
+    """Whoever reads the run can tell which version of the user's code made it."""
+    path = tmp_path / "push.py"
+    path.write_text("class Push:\n    def force(self, x):\n        return 0.1 + 0.0 * x\n")
+    scene = Scene(1000, 0.5, 5, own=[{"file": str(path), "effect": "Push"}])
+    facts = simulate(scene, Numerics(t_end=1.0)).metadata
+    assert facts["own_sha256"] == {str(path): hashlib.sha256(path.read_bytes()).hexdigest()}
+    assert "own_sha256" not in simulate(Scene(1000, 0.5, 5), Numerics(t_end=1.0)).metadata
+
+
+def test_parameters_that_no_record_can_hold_are_refused_before_the_run():
+    """A file's metadata is JSON: a complex number or a NaN would fail only after the work."""
+    for value in (1j, float("nan"), object()):
+        with pytest.raises(InputError, match=r"^own.parameters: .* \(JSON\)$"):
+            Scene(1000, 0.5, 5, own=[{"file": "x.py", "effect": "X", "parameters": {"a": value}}])

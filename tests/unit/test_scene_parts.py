@@ -76,37 +76,39 @@ def test_unknown_keys_and_what_is_no_mapping_are_refused(part):
 
 
 NAN, INF, VECTOR = float("nan"), float("inf"), "a list of two or three finite numbers"
-WRONG = [
-    *[("gravity", "direction", value, VECTOR) for value in ([0, -1, 0, 0], "down", 5, [1])],
-    *[("gravity", "direction", [0, value], VECTOR) for value in (NAN, INF, "x", None, True)],
-    ("gravity", "direction", [0, 0], "a direction that is not zero"),
-    *[("gravity", "strength", value, "a finite number above 0") for value in (0, -1, NAN, "heavy", None)],
-    *[("stretching", "factor", value, "a finite number above 0") for value in (0, INF)],
-    *[("bending", "curvature", value, "a number from -1 to 1") for value in (1.5, NAN, "bent")],
-    ("wall", "point", [1], VECTOR),
-    *[("wall", "normal", value, "a") for value in ([0, 0, 0], "up")],
-    *[("flow", "name", value, "one of shear, extension, rotation, parabolic") for value in ("Shear", ["shear"], 3)],
-    *[("flow", "rate", value, "a finite number") for value in (NAN, "fast", True)],
-    *[("flow", "couple", value, "true or false") for value in (1, "yes", None)],
-    *[("contact", "strength", value, "a finite number above 0") for value in (0, "x")],
-    *[("contact", "reach", value, "a number from 2.01 to 100") for value in (2.0, 1e3, NAN)],
-    *[("noise", name, value, "a finite number above 0") for name in ("peclet", "step") for value in (0, -1, INF)],
-    *[("disturbance", "amplitude", value, "a number from 0 to 0.5") for value in (-0.1, 0.6, NAN)],
-    ("disturbance", "direction", "up", "one of in-plane, out-of-plane"),
-    *[("fibers", "B", value, "a finite number above 0") for value in (0, "soft")],
-    *[("fibers", "theta0", value, "radians between -π and π") for value in (9, NAN)],
-    ("fibers", "place", 3, VECTOR),
-    *[("own", name, value, "text") for name in ("file", "effect") for value in (3, None, ["a"])],
-    *[("own", "parameters", value, "a mapping of names to values") for value in ([1], 3, 0, "")],
-]
+POSITIVE = "a finite number above 0"
+WRONG = {  # what is allowed, and what is not
+    "gravity.direction": (VECTOR, [[0, -1, 0, 0], "down", 5, [1], [0, NAN], [0, INF], [0, "x"], [0, None], [0, True]]),
+    "gravity.strength": (POSITIVE, [0, -1, NAN, "heavy", None]),
+    "stretching.factor": (POSITIVE, [0, INF]),
+    "bending.curvature": ("a number from -1 to 1", [1.5, NAN, "bent"]),
+    "wall.point": (VECTOR, [[1], "low"]),
+    "wall.normal": ("a direction that is not zero", [[0, 0, 0]]),
+    "flow.name": ("one of shear, extension, rotation, parabolic", ["Shear", ["shear"], 3]),
+    "flow.rate": ("a finite number", [NAN, "fast", True]),
+    "flow.couple": ("true or false", [1, "yes", None]),
+    "contact.strength": (POSITIVE, [0, "x"]),
+    "contact.reach": ("a number from 2.01 to 100", [2.0, 1e3, NAN]),
+    "noise.peclet": (POSITIVE, [0, -1, INF]),
+    "noise.step": (POSITIVE, [0, -1, INF]),
+    "disturbance.amplitude": ("a number from 0 to 0.5", [-0.1, 0.6, NAN]),
+    "disturbance.direction": ("one of in-plane, out-of-plane", ["up"]),
+    "fibers.B": (POSITIVE, [0, "soft"]),
+    "fibers.theta0": ("radians between -π and π", [9, NAN]),
+    "fibers.place": (VECTOR, [3]),
+    "own.file": ("text", [3, None, ["a"]]),
+    "own.effect": ("text", [3, None, ["a"]]),
+    "own.parameters": ("a mapping of names to values", [[1], 3, 0, ""]),
+}
 
 
-@pytest.mark.parametrize(("key", "name", "value", "allowed"), WRONG)
-def test_wrong_values_are_refused_by_name(key, name, value, allowed):
+@pytest.mark.parametrize(("name", "value"), [(name, value) for name, (_, values) in WRONG.items() for value in values])
+def test_wrong_values_are_refused_by_name(name, value):
     """One line: part.key, the value, what is allowed."""
-    part = EXAMPLES[key][0] | {name: value}
+    key, parameter = name.split(".")
+    part = EXAMPLES[key][0] | {parameter: value}
     line = refusal(**{key: [part] if key in LISTS else part})
-    assert line.startswith(f"{key}.{name}: ") and f" is not allowed; give {allowed}" in line
+    assert line.startswith(f"{name}: ") and f" is not allowed; give {WRONG[name][0]}" in line
 
 
 CLOSE = {"theta0": math.pi / 2, "fibers": [{}, {"place": [1.0, 0.0]}]}
@@ -124,7 +126,10 @@ CLOSE = {"theta0": math.pi / 2, "fibers": [{}, {"place": [1.0, 0.0]}]}
         ({"flow": {"name": "parabolic", "peak": 1}}, "flow.half_width: is missing; give name and peak and half_width"),
         ({"flow": {"name": "shear", "rate": 1, "peak": 1}}, "flow.peak: does not belong to this flow"),
         ({"flow": {"name": "shear", "gradient": [[0, 1], [0, 0]]}}, "flow.name: does not belong to this flow"),
-        *[({"flow": {"gradient": g}}, "flow.gradient: ") for g in (5, [[1, 2], [3]], [[1]], [["a", 0], [0, 0]])],
+        *[
+            ({"flow": {"gradient": g}}, "flow.gradient: ")
+            for g in (np.eye(2), np.eye(5), 5, [[1, 2], [3]], [[1]], [["a", 0], [0, 0]])
+        ],
         ({"flow": {"gradient": [[1, 0], [0, 1]]}}, "flow.gradient: [[1, 0], [0, 1]] is not allowed"),
         ({"wall": WALL}, "wall: cuts the plane"),
         ({"gravity": {"direction": [0, 0, -1]}}, "gravity.direction: points out of the plane"),
@@ -157,7 +162,7 @@ def test_what_is_missing_or_does_not_go_together_is_refused(values, start):
         {"hydrodynamics": "Oseen"},
         {"bending": {"curvature": 0.1}},
         {"bending": {"curvature": 0.1}, "space": "volume", "shape": "rest"},
-        {"wall": {"point": [0, -4.0, 0]}, "space": "volume"},
+        {"wall": {"point": np.array([0, -4.0, 0])}, "space": "volume", "flow": {"gradient": np.zeros((3, 3))}},
         {"disturbance": {"amplitude": 0.1}, "gravity": {"direction": [0, 0, -1]}, "space": "volume"},
     ],
 )
@@ -222,6 +227,8 @@ def test_paths_are_looked_for_beside_the_file(tmp_path, monkeypatch):
         ("B: [1\n", "scene: "),
         ("\x00", "scene: "),
         ("theta0: 1\n", "scene: missing key 'B'"),
+        (SCENE + "B: 5\n", "scene: "),
+        (SCENE + "shape: {file: none.parquet}\n", "shape.file: input: "),
         (SCENE + "colour: red\n", "scene: unknown key 'colour'; keys are B, theta0, "),
         (SCENE + "1: 2\n", "scene: unknown key 1; keys are B, theta0, "),
         (SCENE + "wall: {pint: 3}\n", "wall: unknown key 'pint'"),
@@ -281,6 +288,8 @@ def test_start_shapes(tmp_path, angle):
         scene = Scene(1000, angle, 5, shape=shape)
         assert_allclose(scene.start(), turned(ROWS, angle), rtol=0, atol=1e-14)
         assert scene.start_angle == angle
+    (tmp_path / "empty.npy").touch()
+    assert refusal(shape={"file": str(tmp_path / "empty.npy")}).startswith("shape.file: cannot read ")
     spatial = np.column_stack([ROWS, [1.0, 0.0, 5.0, 0.0, 2.0]])
     x = Scene(1000, angle, 5, space="volume", shape=spatial).start()
     assert_allclose(x, np.column_stack([turned(ROWS, angle), spatial[:, 2] - 5.0]), rtol=0, atol=1e-14)
@@ -350,3 +359,18 @@ def test_effects_lists_every_part(capsys):
         for one, line in zip(effect["parameters"], lines[at + 1 :], strict=False):
             assert one["unit"] and one["meaning"] and line.split()[0] == one["name"]
             assert line.endswith(f"{one['meaning']} [{one['unit']}] (default: {one['default']})")
+
+
+def test_options_mend_a_file_that_is_wrong_without_them(tmp_path):
+    """`simulate flat.yaml --space volume` where the file alone would be refused: options are merged first."""
+    path, out = tmp_path / "flat.yaml", tmp_path / "x.parquet"
+    path.write_text("B: 1000\ntheta0: 0.5\nn_beads: 5\nwall: {point: [0, -50, 0]}\nnumerics: {t_end: 1}\n")
+    assert main(["simulate", str(path), "-o", str(out)]) == 1
+    assert main(["simulate", str(path), "--space", "volume", "-o", str(out)]) == 0
+
+
+def test_large_seeds_are_kept_to_the_last_digit():
+    """Two seeds that a double would take for one draw different disturbances."""
+    seeds = (2**60, 2**60 + 1)
+    starts = [Scene(1, 0.5, 5, seed=s, disturbance={"amplitude": 0.1, "direction": "in-plane"}).start() for s in seeds]
+    assert not np.array_equal(*starts)

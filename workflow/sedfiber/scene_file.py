@@ -1,5 +1,6 @@
 """Scenes as YAML files: the keys of ``Scene``, and under ``numerics`` those of ``Numerics``."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -10,8 +11,23 @@ from sedfiber.numerics import Numerics
 from sedfiber.scene import Scene
 
 
-def read_scene(path: str | Path) -> tuple[Scene, Numerics]:
-    """A scene and how to integrate it; raises InputError naming the key that is wrong.
+class _Loader(yaml.SafeLoader):
+    """Safe YAML in which 1e-3 is a number and a key may be given once."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
+        keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode)]
+        for key in keys:
+            if keys.count(key) > 1:
+                raise yaml.YAMLError(f"key {key!r} is given twice")
+        return super().construct_mapping(node, deep)
+
+
+_EXPONENT = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$")
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", _EXPONENT, list("-+.0123456789"))
+
+
+def read_scene(path: str | Path, **changes: Any) -> tuple[Scene, Numerics]:
+    """A scene, with ``changes`` to its keys, and how to integrate it; raises InputError naming the key that is wrong.
 
     Files that the scene names (a start shape, an effect of the user's) are looked for beside it.
     """
@@ -26,12 +42,12 @@ def read_scene(path: str | Path) -> tuple[Scene, Numerics]:
         if key not in Scene.__dataclass_fields__:
             raise InputError(f"scene: unknown key {key!r}; keys are {', '.join(Scene.__dataclass_fields__)}, numerics")
     _look_beside(values, Path(path).parent)
-    return Scene.from_dict(values), Numerics(**how)
+    return Scene.from_dict(values | changes), Numerics(**how)
 
 
 def _mapping(path: Path) -> dict[str, Any]:
     try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+        values = yaml.load(path.read_text(encoding="utf-8"), Loader=_Loader)  # a SafeLoader
     except OSError as error:
         raise InputError(f"scene: cannot read {str(path)!r} ({error.strerror})") from None
     except (yaml.YAMLError, UnicodeDecodeError) as error:

@@ -4,6 +4,7 @@ Each part is a small record that says what it is in words and checks its own val
 does to the fiber is in ``sedfiber.physics``, in the module that ``acts_in`` names.
 """
 
+import json
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -15,6 +16,7 @@ from sedfiber.validation import (
     finite_number,
     number_within,
     one_of,
+    plain,
     positive_number,
     refused,
     vector,
@@ -135,14 +137,15 @@ class Flow(Part):
 def _gradient(key: str, value: Any) -> tuple:
     """A velocity gradient as three rows of three, from two rows of two or three of three."""
     allowed = "two rows of two or three rows of three finite numbers without a sum on the diagonal"
+    value = plain(value)
     if not isinstance(value, list | tuple) or len(value) not in (2, 3):
-        raise InputError(f"{key}: {value!r} is not allowed; give {allowed}")
+        raise refused(key, value, allowed)
     rows = [vector(key, row) for row in value]
     if any(len(row) != len(value) for row in value):
-        raise InputError(f"{key}: {value!r} is not allowed; give {allowed}")
+        raise refused(key, value, allowed)
     rows += [(0.0, 0.0, 0.0)] * (3 - len(rows))
     if abs(sum(rows[k][k] for k in range(3))) > 1e-12 * max(abs(e) for row in rows for e in row):
-        raise InputError(f"{key}: {value!r} is not allowed; give {allowed} (the fluid is incompressible)")
+        raise refused(key, value, f"{allowed} (the fluid is incompressible)")
     return tuple(rows)
 
 
@@ -237,6 +240,10 @@ class Own(Part):
                 raise refused(f"own.{name}", getattr(self, name), "text")
         if self.parameters is not None and not isinstance(self.parameters, dict):
             raise refused("own.parameters", self.parameters, "a mapping of names to values")
+        try:
+            json.dumps(self.parameters, allow_nan=False)
+        except (TypeError, ValueError):
+            raise refused("own.parameters", self.parameters, "values that a file's record can hold (JSON)") from None
 
 
 PARTS = (Gravity, Stretching, Bending, Wall, Flow, Contact, Noise, Disturbance, Fiber, Own)

@@ -1,6 +1,8 @@
 """Run one scene and check the result."""
 
+import hashlib
 from dataclasses import asdict, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -38,7 +40,7 @@ def simulate(scene: Scene, numerics: Numerics | None = None, t_end: float | None
         raise InputError("t_end: missing; this scene has no terminal shape to settle to, give a time to end at")
     system = assemble(scene)
     march = numerics.march(system, scene)
-    terminal = terminal_state(scene).positions if scene.has_terminal_shape else None
+    terminal = _terminal_shape(scene, needed=numerics.t_end is None)
     states = _run(march, scene, terminal, numerics)
     t = numerics.interval * np.arange(len(states))
     settled = distance = None
@@ -57,6 +59,18 @@ def simulate(scene: Scene, numerics: Numerics | None = None, t_end: float | None
         "audit": [verdict.to_dict() for verdict in audit(scene, system, t, states)],
     }
     return Trajectory(t, system.to_positions(states), metadata)
+
+
+def _terminal_shape(scene: Scene, needed: bool) -> Positions | None:
+    """The steady shape of a scene that has one; where none is found, a run with an end of its own does without."""
+    if not scene.has_terminal_shape:
+        return None
+    try:
+        return terminal_state(scene).positions
+    except NumericalError:
+        if needed:
+            raise
+        return None
 
 
 def _run(march: March, scene: Scene, terminal: Positions | None, numerics: Numerics) -> State:
@@ -94,9 +108,11 @@ def _is_steady(system: System, y: State) -> bool:
 
 
 def _metadata(scene: Scene, numerics: Numerics, march: March) -> dict:
-    return {
+    facts = {
         "kind": "simulation",
         **scene.facts(),
         "numerics": asdict(numerics),
         "counters": asdict(march.counters),
     }
+    own = {part.file: hashlib.sha256(Path(part.file).read_bytes()).hexdigest() for part in scene.own}
+    return facts | {"own_sha256": own} if own else facts

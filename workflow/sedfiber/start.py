@@ -1,6 +1,7 @@
 """Where the beads are at t = 0."""
 
 import math
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -95,9 +96,15 @@ def _from_file(path: Path) -> Positions:
     if path.suffix == ".parquet":
         from sedfiber.trajectory_file import read_trajectory  # Arrow: only for those who ask
 
-        return read_trajectory(path).positions[-1]
+        try:
+            return read_trajectory(path).positions[-1]
+        except InputError as error:
+            raise InputError(f"shape.file: {error}") from None
     try:
-        return np.load(path, allow_pickle=False) if path.suffix == ".npy" else np.loadtxt(path, delimiter=",", ndmin=2)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", UserWarning)  # an empty file has no rows, which is said below
+            npy = path.suffix == ".npy"
+            return np.load(path, allow_pickle=False) if npy else np.loadtxt(path, delimiter=",", ndmin=2)
     except (OSError, ValueError, EOFError) as error:
         why = str(error).splitlines()[0]
         raise InputError(f"shape.file: cannot read {str(path)!r} ({why}); give .csv, .npy or a trajectory") from None

@@ -13,7 +13,7 @@ def finite_number(key: str, value: Any, allowed: str = "a finite number") -> flo
         if isinstance(value, bool):
             raise TypeError
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise refused(key, value, allowed) from None
     if not math.isfinite(number):
         raise refused(key, value, allowed)
@@ -30,7 +30,8 @@ def positive_number(key: str, value: Any, allowed: str = "a finite number above 
 
 def whole_number(key: str, value: Any, allowed: str, least: int = 0, most: float = math.inf) -> int:
     """``value`` as an int from ``least`` to ``most``, or InputError."""
-    number = finite_number(key, value, allowed)
+    exact = isinstance(value, int) and not isinstance(value, bool)  # a float would round a large seed
+    number = value if exact else finite_number(key, value, allowed)
     if number != int(number) or not least <= number <= most:
         raise refused(key, value, allowed)
     return int(number)
@@ -54,7 +55,7 @@ def one_of(key: str, value: Any, choices: Iterable[str]) -> str:
 
 def vector(key: str, value: Any) -> tuple[float, float, float]:
     """``value`` as three finite numbers; two stand for x and y.  Raises InputError."""
-    allowed = "a list of two or three finite numbers"
+    allowed, value = "a list of two or three finite numbers", plain(value)
     if isinstance(value, str) or not isinstance(value, Sequence) or len(value) not in (2, 3):
         raise refused(key, value, allowed)
     x, y, z = (finite_number(key, component, allowed) for component in (*value, 0.0)[:3])
@@ -70,6 +71,11 @@ def direction(key: str, value: Any) -> tuple[float, float, float]:
     return (x, y, z) if length == 1.0 else (x / length, y / length, z / length)
 
 
+def plain(value: Any) -> Any:
+    """An array as lists, which a scene's record can hold; other values as they are."""
+    return value.tolist() if hasattr(value, "tolist") else value
+
+
 def yes_or_no(key: str, value: Any) -> bool:
     """``value`` if it is true or false, or InputError."""
     if not isinstance(value, bool):
@@ -79,4 +85,5 @@ def yes_or_no(key: str, value: Any) -> bool:
 
 def refused(key: str, value: Any, allowed: str) -> InputError:
     """The error for one key: its name, the value given and what is allowed."""
-    return InputError(f"{key}: {value!r} is not allowed; give {allowed}")
+    shown = " ".join(repr(value).split())  # an array's is several lines
+    return InputError(f"{key}: {shown} is not allowed; give {allowed}")

@@ -58,8 +58,8 @@ def _requested(args: argparse.Namespace, index: int | None) -> tuple[Scene, Nume
         what["theta0"] = angle_of(index)
     how = _given(args, Numerics.__dataclass_fields__)
     if args.scene is not None:
-        scene, numerics = read_scene(args.scene)
-        return replace(scene, **what), replace(numerics, **how)
+        scene, numerics = read_scene(args.scene, **what)
+        return scene, replace(numerics, **how)
     for key, option in (("B", "--B"), ("theta0", "--theta0 or --angle-index")):
         if key not in what:
             raise InputError(f"{key}: missing; give {option}, or a scene file")

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
-from sedfiber._typing import Array, History
+from sedfiber._typing import Array
 from sedfiber.figures.style import BLACK, BLUE, GREY, ORANGE, PAGE_WIDTH, PURPLE, VERMILION, place_legend
 from sedfiber.trajectory import Trajectory
 
@@ -21,20 +21,18 @@ _FRAME = PAGE_WIDTH / SNAPSHOTS  # inches
 
 def draw_scene(run: Trajectory, title: str) -> Figure:
     """A row of snapshots, seen along z and, in volume, along y too; below, size and place over time."""
-    fibers = run.fibers
     views = [(0, 1)] if run.metadata["scene"]["space"] == "plane" else [(0, 1), (0, 2)]
-    flat = [_Frames(fibers[..., view]) for view in views]
+    flat = [_Frames(run.fibers[..., view]) for view in views]
     heights = [_FRAME * frames.shape for frames in flat]
     figure = Figure(figsize=(PAGE_WIDTH, sum(heights) + 0.25 * len(views) + 2.6))
-    upper, lower = figure.subfigures(2, 1, height_ratios=[sum(heights) + 0.25 * len(views) + 0.2, 2.4])
-    grid = upper.subplots(len(views), SNAPSHOTS, squeeze=False, height_ratios=heights)
+    upper, lower = figure.add_gridspec(2, 1, height_ratios=[sum(heights) + 0.25 * len(views), 2.0])
+    grid = upper.subgridspec(len(views), SNAPSHOTS, height_ratios=heights)
     samples = _samples(run.t, flat[0].seen)
-    for row, view, frames in zip(grid, views, flat, strict=True):
-        _draw_snapshots(row, run, frames, view, samples)
-    for axes, k in zip(grid[0], samples, strict=True):
-        axes.set_title(f"t = {run.t[k]:.4g}", fontsize=7)
-    _draw_history(lower, run, fibers)
-    upper.suptitle(title, fontsize="medium")
+    for k, (view, frames) in enumerate(zip(views, flat, strict=True)):
+        row = [figure.add_subplot(grid[k, column]) for column in range(SNAPSHOTS)]
+        _draw_snapshots(row, run, frames, view, samples, with_times=k == 0)
+    _draw_history(*(figure.add_subplot(half) for half in lower.subgridspec(1, 2)), run)
+    figure.suptitle(title, fontsize="medium")
     return figure
 
 
@@ -63,7 +61,9 @@ def _samples(t: Array, seen: Array) -> Array:
     return np.searchsorted(pace, np.linspace(0.0, pace[-1], SNAPSHOTS) * (1.0 - 1e-12))
 
 
-def _draw_snapshots(row: list[Axes], run: Trajectory, frames: _Frames, view: tuple, samples: Array) -> None:
+def _draw_snapshots(
+    row: list[Axes], run: Trajectory, frames: _Frames, view: tuple, samples: Array, with_times: bool
+) -> None:
     """Frames of one size at one scale, without ticks; a bar in the first tells the scale."""
     for axes, k in zip(row, samples, strict=True):
         for fiber, color in zip(frames.flat[k], FIBER_COLORS * len(frames.flat[k]), strict=False):
@@ -73,6 +73,8 @@ def _draw_snapshots(row: list[Axes], run: Trajectory, frames: _Frames, view: tup
         axes.set(xlim=(x - frames.reach[0], x + frames.reach[0]), ylim=(y - frames.reach[1], y + frames.reach[1]))
         axes.set(aspect="equal", xticks=[], yticks=[])
         _draw_wall(axes, run.metadata["scene"].get("wall"), view)
+        if with_times:
+            axes.set_title(f"t = {run.t[k]:.4g}", fontsize=7)
     x, y = frames.middle[samples[0]] + frames.reach * [-0.85, 0.8]
     row[0].plot([x, x + 20.0], [y, y], color=BLACK, linewidth=1.5)
     row[0].annotate("20 a", (x + 22.0, y), fontsize=6, verticalalignment="center")
@@ -91,10 +93,10 @@ def _draw_wall(axes: Axes, wall: dict | None, view: tuple) -> None:
     axes.add_patch(Polygon(corners, facecolor="#d0d0d0", edgecolor=GREY, zorder=0.5))
 
 
-def _draw_history(figure: Figure, run: Trajectory, fibers: History) -> None:
+def _draw_history(left: Axes, right: Axes, run: Trajectory) -> None:
     """Left: end-to-end distance, and the mean height where it changes; right: extents along the axes."""
-    length = 2.0 * fibers.shape[2]
-    left, right = figure.subplots(1, 2)
+    fibers = run.fibers
+    length = 2.0 * run.n_beads
     for k, color in zip(range(fibers.shape[1]), FIBER_COLORS * fibers.shape[1], strict=False):
         name = f"fiber {k + 1}" if fibers.shape[1] > 1 else "fiber"
         ends = np.linalg.norm(fibers[:, k, -1] - fibers[:, k, 0], axis=-1) / length
@@ -113,4 +115,4 @@ def _draw_history(figure: Figure, run: Trajectory, fibers: History) -> None:
         other.set_ylabel("mean height / a (dotted)")
     for axis in "xyz" if fibers[..., 2].any() else "xy":
         right.add_line(Line2D([], [], color=GREY, linestyle=AXIS_STYLES[axis], label=f"extent along {axis}"))
-    place_legend(figure, left, right, columns=5)
+    place_legend(left.figure, left, right, columns=5)

@@ -66,10 +66,19 @@ def save_figure(draw: Callable[[], Figure], svg: Path, png: Path) -> None:
     """Draw in this style alone, whatever the user's own settings, and write both files."""
     with context(["default", RC_PARAMS]):
         figure = draw()
+        _fix_layout(figure)
         with replaced_when_done(svg) as partial:
             figure.savefig(partial, format="svg", metadata={"Date": None, "Creator": None})
         with replaced_when_done(png) as partial:
             figure.savefig(partial, format="png", metadata={"Software": None})
+
+
+def _fix_layout(figure: Figure) -> None:
+    """Lay out once, and round: the layout's solver differs in the last bits from run to run."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axes in figure.axes:
+        axes.set_position(np.round(axes.get_position(original=True).bounds, 6))
 
 
 def letter_panel(axes: Axes, letter: str, title: str) -> None:

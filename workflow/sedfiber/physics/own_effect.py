@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from sedfiber._typing import Matrix, Positions
+from sedfiber._typing import Array, Matrix, Positions
 from sedfiber.errors import InputError, NumericalError
 from sedfiber.scene_parts import Own
 
@@ -31,7 +31,7 @@ class _OwnEffect:
         self._name, self._function = name, function
 
     def _value(self, x: Positions) -> Positions:
-        value = np.asarray(self._function(x.copy()), dtype=float)
+        value = _asked(self._name, self._function, x)
         if value.shape != x.shape or not np.isfinite(value).all():
             raise NumericalError(
                 f"own: {self._name} returned shape {value.shape} or a number that is not finite; "
@@ -48,13 +48,22 @@ class _OwnEffect:
             jac[: x.size, column] += (ahead - behind).ravel() / (2.0 * _STEP)
 
 
+def _asked(name: str, function: Any, x: Positions) -> Array:
+    """What the user's code makes of a copy of ``x``; raises NumericalError where it fails."""
+    try:
+        return np.asarray(function(x.copy()), dtype=float)
+    except Exception as error:
+        why = " ".join(f"{type(error).__name__}: {error}".split())
+        raise NumericalError(f"own: {name} failed ({why}); it is given numbers of shape {x.shape}") from None
+
+
 class OwnForce(_OwnEffect):
     """A force; conservative if the user's class has an energy."""
 
     def __init__(self, name: str, effect: Any):
         super().__init__(name, effect.force)
         if hasattr(effect, "energy"):
-            self.energy = lambda x: float(effect.energy(x))
+            self.energy = lambda x: float(_asked(f"the energy of {name}", lambda y: float(effect.energy(y)), x))
 
     def add_force(self, x: Positions, force: Positions) -> None:
         """Add the user's force, shape (N, d)."""
@@ -86,7 +95,10 @@ def load_own(own: Own) -> OwnForce | OwnFlow:
     except Exception as error:
         why = f"{type(error).__name__}: {error}".splitlines()[0]
         raise InputError(f"own: cannot make {own.effect!r} from {own.file!r} ({why})") from None
-    for kind, method in ((OwnForce, "force"), (OwnFlow, "velocity")):
-        if callable(getattr(effect, method, None)):
-            return kind(own.effect, effect)
+    kinds = {"force": OwnForce, "velocity": OwnFlow}
+    found = [method for method in kinds if callable(getattr(effect, method, None))]
+    if len(found) == 1:
+        return kinds[found[0]](own.effect, effect)
+    if found:
+        raise InputError(f"own.effect: {own.effect!r} has both force(x) and velocity(x); make it two classes")
     raise InputError(f"own.effect: {own.effect!r} has neither force(x) nor velocity(x); write one of them")

@@ -150,7 +150,9 @@ class System:
         band, far = self._force_jacobian(self.forces, x, place)
         all_band, all_far = band, far
         if self.drives:
-            all_band, all_far = self._force_jacobian((*self.forces, *self.drives), x, place)
+            drive_band, drive_far = self._force_jacobian(self.drives, x, place)
+            all_band = band + drive_band
+            all_far = far if drive_far is None else drive_far if far is None else far + drive_far
         at, size = place if self.mobility.placed else x, x.size
         self.mobility.linearise(at, force, all_band, u, jac)
         if all_far is not None and all_far.any():  # contact is zero most of the time
