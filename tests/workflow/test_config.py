@@ -120,6 +120,8 @@ OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml"}  # where 
     [
         ("simulate", ["simulate", "solve_terminal_shapes", "check_simulation"]),
         ("analysis", ["aggregate_dataset", "tabulate_trajectories", "tabulate_timings", "write_manifest"]),
+        ("analysis", ["tabulate_audit", "compare_third_dimension", "measure_effects", "benchmark_parts"]),
+        ("figures", ["plot_scene", "plot_effects", "plot_third_dimension"]),
         ("learning", ["train_autoencoder", "train_node", "forecast_test_set", "tabulate_forecast_errors"]),
         ("figures", ["plot_reconstruction", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"]),
     ],
