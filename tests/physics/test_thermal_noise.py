@@ -115,10 +115,10 @@ def drift_parts(system, x, temperature, n, seed):
 def test_displacements_over_a_step_have_the_covariance_of_the_mobility(place):
     """Fluctuation–dissipation: the covariance over a short step is 2 kT M Δt, with M of the reference.
 
-    8000 draws: every entry within 5 of its standard errors ``√((M_ii M_jj + M_ij²)/n)`` (1.6 % on the
-    diagonal), and the mean square in the metric of M within 4 of its own, ``√(2/(n N d))``, 0.4 %.
+    6000 draws: every entry within 5 of its standard errors ``√((M_ii M_jj + M_ij²)/n)`` (1.8 % on the
+    diagonal), and the mean square in the metric of M within 4 of its own, ``√(2/(n N d))``, 0.5 %.
     """
-    n, temperature = 8000, 0.7
+    n, temperature = 6000, 0.7
     system, x = bent_chain_in(place)
     moves = displacements(system, x, temperature, n, seed=11)
     moves = moves / np.sqrt(2 * temperature * SHORT)
@@ -137,7 +137,7 @@ def test_mean_displacement_is_force_and_drift(place):
 
     The deterministic part to 1e-3 of the largest velocity (ℰ Δt = 2e-4); the noise's linear part has
     zero mean within 5 standard errors; what is left is the drift within 5, from 2500 draws, and where
-    the drift is not zero it is more than 20 of them away from zero.
+    the drift is not zero it is more than 10 of them away from zero.
     """
     temperature = 0.7
     system, x = bent_chain_in(place)
@@ -151,21 +151,21 @@ def test_mean_displacement_is_force_and_drift(place):
     if place == "volume":
         assert np.abs(drift).max() < 1e-8
     else:
-        assert deviation(sample_average(left), 0.0) > 20
+        assert deviation(sample_average(left), 0.0) > 10
 
 
 def test_a_bead_near_a_wall_drifts_away_from_it():
     """``kT dM/dh`` along the normal with ``M = 1 − 9/(8h) + 1/(2h³) − 1/(8h⁵)`` (Swan & Brady 2007), 0 along the wall.
 
-    At h = 1.3, where dM/dh is 0.270: 4000 draws, standard error 2 %, tolerance 4 of them.
+    At h = 1.3, where dM/dh is 0.270: 3000 draws, standard error 2.6 %, tolerance 4 of them.
     """
     h, temperature = 1.3, 0.7
     wall = {"point": (0.0, -60.0, 0.0)}
     system = assemble(chain_scene(1, space="volume", wall=wall, temperature=temperature))
-    *_, left = drift_parts(system, np.array([[0.3, h - 60.0, -0.2]]), temperature, 4000, seed=13)
+    *_, left = drift_parts(system, np.array([[0.3, h - 60.0, -0.2]]), temperature, 3000, seed=13)
     mean, error = sample_average(left)
     expected = temperature * (9 / (8 * h**2) - 3 / (2 * h**4) + 5 / (8 * h**6))
-    assert error[1] < 0.03 * expected
+    assert error[1] < 0.035 * expected
     assert abs(mean[1] - expected) < 4 * error[1]
     assert np.abs(mean[[0, 2]] / error[[0, 2]]).max() < 4
 
@@ -215,9 +215,9 @@ def test_heights_above_a_wall_are_boltzmanns():
     """Heavy beads above a wall with contact: heights have the density ``exp(−U/kT)``, by quadrature.
 
     ``U = G h + S (H² − h²)⁵/(10 (H² − 1)⁴)``, the integral of weight and contact force.  Fifteen beads
-    1000 a apart do as fifteen runs of one, and start at their quantiles.  Mean height and the occupation
-    of four equally probable layers are within 4 standard errors, about 0.005 a and 3 % of a layer; the
-    step's own error, first order, is 0.003 a.  Without the drift the density would be ``exp(−U/kT)/M_zz``: the
+    1000 a apart do as fifteen runs of one, and start at their quantiles.  Mean height is
+    within 4 standard errors, of about 0.005 a, and the occupation of four equally probable layers within 5,
+    of about 2 % of a layer; the step's own error, first order, is about one of them.  Without the drift the density would be ``exp(−U/kT)/M_zz``: the
     mean is more than 6 errors away from that one's.
     """
     n, weight, strength, top = 15, 4.0, 20.0, 2.0
@@ -243,7 +243,7 @@ def test_heights_above_a_wall_are_boltzmanns():
     assert abs(mean - wrong) > 6 * error
     layer = np.searchsorted(np.interp([0.25, 0.5, 0.75], share, h), heights)
     occupied = np.stack([(layer == k).mean(1) for k in range(4)], axis=1)
-    assert deviation(block_average(occupied, 40), 0.25) < 4
+    assert deviation(block_average(occupied, 40), 0.25) < 5
 
 
 def bond_energy(dim, modulus):
@@ -304,8 +304,8 @@ def test_bonds_and_angles_have_their_thermal_energy(space, hydrodynamics):
 def test_error_of_a_mean_falls_with_the_step():
     """Weak order one: the error of the mean bond energy at steps 0.12, 0.06, 0.03 is a power of the step near one.
 
-    A run four times as long gave 0.142, 0.057 and 0.025 with 0.003 of statistical error.  With 0.005 the
-    slope of the logarithms is known to ± 0.13, and between 0.7 and 1.8, four times that about 1.25.
+    Longer runs gave 0.142 ± 0.003, 0.058 ± 0.002 and 0.028 ± 0.002.  With 0.005 here the slope of the
+    logarithms is known to ± 0.14, and between 0.7 and 1.8, four times that about their 1.2.
     """
     steps = (0.12, 0.06, 0.03)
     errors = []
