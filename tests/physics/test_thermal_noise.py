@@ -215,10 +215,10 @@ def test_heights_above_a_wall_are_boltzmanns():
     """Heavy beads above a wall with contact: heights have the density ``exp(−U/kT)``, by quadrature.
 
     ``U = G h + S (H² − h²)⁵/(10 (H² − 1)⁴)``, the integral of weight and contact force.  Fifteen beads
-    1000 a apart do as fifteen runs of one, and start at their quantiles.  Mean height is
-    within 4 standard errors, of about 0.005 a, and the occupation of four equally probable layers within 5,
-    of about 2 % of a layer; the step's own error, first order, is about one of them.  Without the drift the density would be ``exp(−U/kT)/M_zz``: the
-    mean is more than 6 errors away from that one's.
+    1000 a apart do as fifteen runs of one, and start at their quantiles.  Mean height is within 4 standard
+    errors, of about 0.005 a, and the occupation of four equally probable layers within 5, of about 2 %
+    of a layer; the step's own error, first order, is about one of them.  Without the drift the density
+    would be ``exp(−U/kT)/M_zz``: the mean is more than 6 errors away from that one's.
     """
     n, weight, strength, top = 15, 4.0, 20.0, 2.0
     h = np.linspace(0.8, 15.0, 20001)  # below it is 1e-5 of the whole
@@ -289,15 +289,15 @@ def test_bonds_and_angles_have_their_thermal_energy(space, hydrodynamics):
 
     ⟨cos θ⟩, and with it the bending energy κ (1 − ⟨cos θ⟩), is I₁(κ)/I₀(κ) in the plane and coth κ − 1/κ
     in volume; the energy of a bond is that of its quadrature.  Both within 4 standard errors, at most
-    6 % of either energy; the step's own error, first order, is at most 2 % of the bond's.
+    8 % and 3 % of these energies; the step's own error, first order, is at most 2 % of the bond's.
     """
     dim, seed = DIMS[space], 31
     angles, bonds = measure_fibers(space, hydrodynamics, 0.01, 80.0, seed)
     cosine, error = block_average(angles)
-    assert error < 0.06 * (1 - cosine)
+    assert error < 0.08 * (1 - cosine)
     assert abs(cosine - mean_cosine(dim, MODULUS / 8)) < 4 * error
     energy, error = block_average(bonds)
-    assert error < 0.025 * energy
+    assert error < 0.03 * energy
     assert abs(energy - bond_energy(dim, MODULUS)) < 4 * error
 
 
