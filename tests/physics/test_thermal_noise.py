@@ -439,7 +439,7 @@ def test_samples_do_not_depend_on_their_spacing():
         (chain_scene(5, noise=None), Numerics("stochastic-midpoint"), "integrator"),
         (chain_scene(5, noise={"peclet": 1.0, "step": 0.03}), Numerics(), "noise.step"),
         (chain_scene(5, noise={"peclet": 1.0, "step": 1.0}), Numerics(), "noise.step"),
-        (chain_scene(5, noise={"peclet": 1e-3, "step": 0.5}), Numerics(), "noise.step: 0.5 is too long for bonds"),
+        (chain_scene(5, noise={"peclet": 1e-3, "step": 0.5}), Numerics(), "noise.step"),
     ],
     ids=["deterministic integrator", "no noise", "step does not divide", "step too long", "bonds too warm"],
 )
