@@ -10,7 +10,6 @@ from sedfiber.errors import InputError
 from sedfiber.numerics import DEFAULT_INTEGRATOR, Numerics
 from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC
 from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
-from sedfiber.scene_file import read_scene
 from sedfiber.simulation import simulate
 from sedfiber.trajectory_file import write_trajectory
 
@@ -58,6 +57,8 @@ def _requested(args: argparse.Namespace, index: int | None) -> tuple[Scene, Nume
         what["theta0"] = angle_of(index)
     how = _given(args, Numerics.__dataclass_fields__)
     if args.scene is not None:
+        from sedfiber.scene_file import read_scene  # YAML: the study's 227 runs do without
+
         scene, numerics = read_scene(args.scene, **what)
         return scene, replace(numerics, **how)
     for key, option in (("B", "--B"), ("theta0", "--theta0 or --angle-index")):
