@@ -64,7 +64,7 @@ def _samples(t: Array, seen: Array) -> Array:
 def _draw_snapshots(
     row: list[Axes], run: Trajectory, frames: _Frames, view: tuple, samples: Array, with_times: bool
 ) -> None:
-    """Frames of one size at one scale, without ticks; a bar in the first tells the scale."""
+    """Frames of one size at one scale, without ticks; the words beside the first tell the scale."""
     for axes, k in zip(row, samples, strict=True):
         for fiber, color in zip(frames.flat[k], FIBER_COLORS * len(frames.flat[k]), strict=False):
             axes.plot(*fiber.T, color=color, linewidth=1.6, solid_capstyle="round")
@@ -75,10 +75,7 @@ def _draw_snapshots(
         _draw_wall(axes, run.metadata["scene"].get("wall"), view)
         if with_times:
             axes.set_title(f"t = {run.t[k]:.4g}", fontsize=7)
-    x, y = frames.middle[samples[0]] + frames.reach * [-0.85, 0.8]
-    row[0].plot([x, x + 20.0], [y, y], color=BLACK, linewidth=1.5)
-    row[0].annotate("20 a", (x + 22.0, y), fontsize=6, verticalalignment="center")
-    row[0].set_ylabel(f"{'xyz'[view[1]]} over x", fontsize=7)
+    row[0].set_ylabel(f"{'xyz'[view[1]]} over x,\n{2.0 * frames.reach[0]:.0f} a wide", fontsize=6.5)
 
 
 def _draw_wall(axes: Axes, wall: dict | None, view: tuple) -> None:
