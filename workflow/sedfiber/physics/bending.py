@@ -122,12 +122,18 @@ def _add_jacobian(x, kappa, first, last, band):
                 h22 = -kappa * (a2 + c * (unit - t2[k] * t2[w])) / (l2 * l2)
                 h12 = kappa * (unit - t2[k] * t2[w] - t1[k] * (t1[w] - c * t2[w])) / (l1 * l2)
                 h21 = kappa * (unit - t1[k] * t1[w] - t2[k] * (t2[w] - c * t1[w])) / (l1 * l2)
-                band[2, k, w, m - 1] += h11
-                band[1, k, w, m] += h12 - h11
-                band[0, k, w, m + 1] -= h12
-                band[3, k, w, m - 1] += h21 - h11
-                band[2, k, w, m] += h11 - h12 - h21 + h22
-                band[1, k, w, m + 1] += h12 - h22
-                band[4, k, w, m - 1] -= h21
-                band[3, k, w, m] += h21 - h22
-                band[2, k, w, m + 1] += h22
+                spread_on_beads(h11, h12, h21, h22, m, k, w, band)
+
+
+@njit(cache=True)
+def spread_on_beads(h11, h12, h21, h22, m, k, w, band):
+    """Add entry (k, w) of second derivatives by the bonds before and after bead ``m`` to the three beads' blocks."""
+    band[2, k, w, m - 1] += h11
+    band[1, k, w, m] += h12 - h11
+    band[0, k, w, m + 1] -= h12
+    band[3, k, w, m - 1] += h21 - h11
+    band[2, k, w, m] += h11 - h12 - h21 + h22
+    band[1, k, w, m + 1] += h12 - h22
+    band[4, k, w, m - 1] -= h21
+    band[3, k, w, m] += h21 - h22
+    band[2, k, w, m + 1] += h22

@@ -7,6 +7,7 @@ import numpy as np
 from numba import njit
 
 from sedfiber._typing import Band, Positions
+from sedfiber.physics.bending import spread_on_beads
 from sedfiber.physics.protocols import TO_THE_LAST
 
 # No bend is resolved below this sine: bond directions are rounded to 1e-16, so what is left of
@@ -155,12 +156,4 @@ def _add_jacobian(x, kappa, angle, first, last, band):
                 h11, h22 = -kappa / (l1 * l1) * a1, -kappa / (l2 * l2) * a2
                 h12 = kappa / (l1 * l2) * (cos_bend * n[0, k] * n[1, w] + across)
                 h21 = kappa / (l1 * l2) * (cos_bend * n[1, k] * n[0, w] + across)
-                band[2, k, w, m - 1] += h11
-                band[1, k, w, m] += h12 - h11
-                band[0, k, w, m + 1] -= h12
-                band[3, k, w, m - 1] += h21 - h11
-                band[2, k, w, m] += h11 - h12 - h21 + h22
-                band[1, k, w, m + 1] += h12 - h22
-                band[4, k, w, m - 1] -= h21
-                band[3, k, w, m] += h21 - h22
-                band[2, k, w, m + 1] += h22
+                spread_on_beads(h11, h12, h21, h22, m, k, w, band)
