@@ -7,6 +7,8 @@ integrator asks of a system.  Add a problem to ``MOTIONS`` and every integrator 
 import numpy as np
 
 from sedfiber.physics.assembly import assemble
+from sedfiber.physics.frame import no_band
+from sedfiber.physics.free_draining import add_band
 from sedfiber.physics.gravity import Gravity
 from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.system import System
@@ -59,6 +61,25 @@ def system_of(space="plane", hydrodynamics="RPY", B=1000.0, n_beads=11):
         return assemble(Scene(B, 0.5, n_beads, space=space, hydrodynamics=hydrodynamics))
     forces = assemble(Scene(B, 0.5, n_beads)).forces
     return System(forces, PairMobility("Oseen", SPACES[space]), n_beads, SPACES[space])
+
+
+def force_of(effect, x):
+    """The force of one effect alone, (N, d)."""
+    force = np.zeros_like(x)
+    effect.add_force(x, force)
+    return force
+
+
+def jacobian_of(effect, x):
+    """Its Jacobian, (N d, N d)."""
+    jac = np.zeros((x.size, x.size))
+    if effect.banded:
+        band = no_band(x.shape)
+        effect.add_jacobian(x, band)
+        add_band(band, jac)
+    else:
+        effect.add_jacobian(x, jac)
+    return jac
 
 
 def taylor_slope(f, jacobian, y, direction, eps):

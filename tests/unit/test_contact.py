@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import reference
-from problems import crumpled_chain, random_rotation, straight_chain, taylor_slope
+from problems import crumpled_chain, force_of, jacobian_of, random_rotation, straight_chain, taylor_slope
 from sedfiber.physics.contact import Contact
 from sedfiber.physics.frame import no_band
-from sedfiber.physics.free_draining import add_band
 from sedfiber.physics.wall_contact import WallContact
 
 STRENGTH, REACH, N = 3.0, 2.6, 12
@@ -44,25 +43,6 @@ def at_wall(seed):
     rng = np.random.default_rng(seed)
     x = rng.uniform(-5, 5, (N, 3))
     return x + (rng.uniform(0.6, 1.6, N) - (x - np.array(POINT)) @ np.array(NORMAL))[:, None] * np.array(NORMAL)
-
-
-def force_of(effect, x):
-    """The force of one contact alone, (N, d)."""
-    force = np.zeros_like(x)
-    effect.add_force(x, force)
-    return force
-
-
-def jacobian_of(effect, x):
-    """Its Jacobian, (N d, N d)."""
-    jac = np.zeros((x.size, x.size))
-    if effect.banded:
-        band = no_band(x.shape)
-        effect.add_jacobian(x, band)
-        add_band(band, jac)
-    else:
-        effect.add_jacobian(x, jac)
-    return jac
 
 
 def pair(distance, dim=3):

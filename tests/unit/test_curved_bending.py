@@ -7,11 +7,9 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import reference
-from problems import bent_chain, random_rotation, straight_chain, taylor_slope
+from problems import bent_chain, force_of, jacobian_of, random_rotation, straight_chain, taylor_slope
 from sedfiber.physics.bending import Bending
 from sedfiber.physics.curved_bending import CurvedBending, rest_arc
-from sedfiber.physics.frame import no_band
-from sedfiber.physics.free_draining import add_band
 from sedfiber.physics.stretching import Stretching
 
 MODULUS = 700.0
@@ -33,21 +31,6 @@ def energy(x, curvature):
         around = np.cross(one, two)
         sin = np.sqrt((around * around).sum(-1))
     return MODULUS / 8 * (1 - cos * np.cos(alpha) - sin * np.sin(alpha)).sum(-1)
-
-
-def force_of(effect, x):
-    """The force of one effect alone, (N, d)."""
-    force = np.zeros_like(x)
-    effect.add_force(x, force)
-    return force
-
-
-def jacobian_of(effect, x):
-    """Its Jacobian, (N d, N d)."""
-    jac, band = np.zeros((x.size, x.size)), no_band(x.shape)
-    effect.add_jacobian(x, band)
-    add_band(band, jac)
-    return jac
 
 
 def chain_of(angles):

@@ -7,10 +7,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 import reference
-from problems import bent_chain, random_rotation, straight_chain, taylor_slope
+from problems import bent_chain, force_of, jacobian_of, random_rotation, straight_chain, taylor_slope
 from sedfiber.physics.bending import Bending
-from sedfiber.physics.frame import no_band
-from sedfiber.physics.free_draining import add_band
 from sedfiber.physics.gravity import Gravity
 from sedfiber.physics.stretching import Stretching
 
@@ -26,25 +24,6 @@ each_effect = pytest.mark.parametrize("name", EFFECTS)
 each_internal = pytest.mark.parametrize("name", INTERNAL)
 each_space = pytest.mark.parametrize("dim", [2, 3])
 seeds = st.integers(0, 10**6)
-
-
-def force_of(effect, x):
-    """The force of one effect alone, (N, d)."""
-    force = np.zeros_like(x)
-    effect.add_force(x, force)
-    return force
-
-
-def jacobian_of(effect, x):
-    """Its Jacobian, (N d, N d)."""
-    jac = np.zeros((x.size, x.size))
-    if effect.banded:
-        band = no_band(x.shape)
-        effect.add_jacobian(x, band)
-        add_band(band, jac)
-    else:
-        effect.add_jacobian(x, jac)
-    return jac
 
 
 @each_space

@@ -74,8 +74,9 @@ def save_figure(draw: Callable[[], Figure], svg: Path, png: Path) -> None:
 
 
 def _fix_layout(figure: Figure) -> None:
-    """Lay out once, and round: the layout's solver differs in the last bits from run to run."""
-    figure.draw_without_rendering()
+    """Lay out, and round: the layout's solver differs in the last bits from run to run."""
+    for _ in range(3):  # long labels move panels, whose ticks then change; it settles in two rounds
+        figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axes in figure.axes:
         axes.set_position(np.round(axes.get_position(original=True).bounds, 6))
