@@ -56,6 +56,7 @@ RC_PARAMS = {
     "lines.linewidth": 1.2,
     "lines.markersize": 4.5,
     "figure.constrained_layout.use": True,
+    "figure.dpi": 200,  # text is hinted to pixels: the layout must measure it as it will be drawn
     "savefig.dpi": 200,
     "svg.fonttype": "path",
     "svg.hashsalt": "sedfiber",
@@ -74,9 +75,8 @@ def save_figure(draw: Callable[[], Figure], svg: Path, png: Path) -> None:
 
 
 def _fix_layout(figure: Figure) -> None:
-    """Lay out, and round: the layout's solver differs in the last bits from run to run."""
-    for _ in range(3):  # long labels move panels, whose ticks then change; it settles in two rounds
-        figure.draw_without_rendering()
+    """Lay out once, and round: the layout's solver differs in the last bits from run to run."""
+    figure.draw_without_rendering()
     figure.set_layout_engine("none")
     for axes in figure.axes:
         axes.set_position(np.round(axes.get_position(original=True).bounds, 6))
