@@ -98,6 +98,9 @@ class Motion:
     def __init__(self):
         self.rhs_count = self.jacobian_count = 0
 
+    def loss_of_definiteness(self, y):
+        return None  # no beads
+
     def rhs(self, t, y):
         self.rhs_count += 1
         return self.f(t, y)

@@ -158,7 +158,7 @@ def test_what_is_missing_or_does_not_go_together_is_refused(values, start):
     "values",
     [
         CLOSE | {"hydrodynamics": "RPY-overlap"},
-        CLOSE | {"fibers": [{}, {"place": [1.2, 0.0]}]},
+        CLOSE | {"fibers": [{}, {"place": [1.4, 0.0]}]},
         {"hydrodynamics": "Oseen"},
         {"bending": {"curvature": 0.1}},
         {"bending": {"curvature": 0.1}, "space": "volume", "shape": "rest"},

@@ -13,27 +13,30 @@ GOOD = Checks(
     bond_strain_max=0.01,
     strain_bound=0.04,
     smallest_gap=1.9,
-    gap_bound=-0.8,
     energy_imbalance=1e-8,
     energy_bound=1e-4,
     final_distance=1e-3,
+    least_mobility=0.2,
 )
 
 
 def test_bounds_that_hold_pass():
     """Equality is within the bound."""
     GOOD.require()
-    replace(GOOD, bond_strain_max=0.04, smallest_gap=-0.8, energy_imbalance=1e-4).require()
+    replace(GOOD, bond_strain_max=0.04, smallest_gap=-1.9, energy_imbalance=1e-4).require()
 
 
 @pytest.mark.parametrize(
     ("broken", "named"),
     [
         ({"bond_strain_max": 0.05}, "bond strain 0.05 is above its bound 0.04"),
-        ({"smallest_gap": -0.9}, "overlap of beads that are not neighbours 0.9 is above its bound 0.8"),
+        (
+            {"least_mobility": -0.01},
+            r"not positive definite \(smallest eigenvalue -0.01\); give .*RPY-overlap",
+        ),
         ({"energy_imbalance": 2e-4}, "energy imbalance 0.0002 is above its bound 0.0001"),
         ({"bond_strain_max": float("nan")}, "bond strain nan"),
-        ({"smallest_gap": float("nan")}, "overlap"),
+        ({"least_mobility": float("nan")}, "not positive definite"),
         ({"energy_imbalance": float("nan")}, "energy imbalance nan"),
     ],
 )
@@ -59,7 +62,8 @@ def test_strain_and_gap_are_the_extremes_over_the_run():
     measured = check(system, states_of(system, [rest, stretched], 0.0), scene, 0.5)
     assert measured.bond_strain_max == pytest.approx(0.1)
     assert measured.smallest_gap == pytest.approx(2.0)
-    assert (measured.strain_bound, measured.gap_bound) == (5 / scene.modulus, -0.8)
+    assert measured.strain_bound == 5 / scene.modulus
+    assert measured.least_mobility is None  # no two beads come near each other
     assert measured.final_distance == 0.5
 
 
@@ -83,3 +87,14 @@ def test_a_run_that_breaks_a_bound_is_no_result(monkeypatch):
     monkeypatch.setattr("sedfiber.physics.checks.strain_bound", lambda scene: 1e-12)
     with pytest.raises(NumericalError, match="check failed: bond strain"):
         simulation.simulate(Scene(1000, 0.5, 11), t_end=2.0)
+
+
+@pytest.mark.parametrize("r", [1.5, 1.0])
+def test_the_mobility_is_examined_where_beads_overlap(r):
+    """Two free beads r apart: plain RPY's smallest eigenvalue is 1 − c1 = 1 − 3/(4r) − 1/(2r³) or 1 − c1 − c2."""
+    expected = 1 - max(0.75 / r + 0.5 / r**3, 1.5 / r - 1 / r**3)
+    scene = Scene(1000, 0.5, 3)
+    system = system_of(n_beads=3)
+    x = np.array([[0.0, 0.0], [r, 0.0], [1e6, 0.0]])
+    measured = check(system, states_of(system, [straight_chain(3, 2), x], 0.0), scene, 0.0)
+    assert measured.least_mobility == pytest.approx(expected, abs=1e-5)

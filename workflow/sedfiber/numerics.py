@@ -6,7 +6,7 @@ from sedfiber.errors import InputError
 from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, March, StochasticMidpoint, Tolerances
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
-from sedfiber.validation import number_within, one_of, positive_number
+from sedfiber.validation import number_within, one_of, positive_number, yes_or_no
 
 # Against Radau at 1e-10, over a third of the study's runs: LSODA at 1e-8 is within 1.2e-6 L at
 # all times and the fastest; BDF needs 1.4 and Radau 1.9 times as long for the same worst error.
@@ -24,7 +24,8 @@ class Numerics:
     noise the stochastic one.  ``rtol`` and ``atol`` (in a) bound the local error of each
     coordinate; ``interval`` is the sample spacing τ, ``t_end`` the end of the run (None: when
     the fiber has settled) and ``max_time`` the time by which a run without an end must have
-    settled, all in a/U_s.  Raises InputError for any value that is not allowed.
+    settled, all in a/U_s.  ``estimate_error`` repeats the run at tighter tolerances and records
+    how far the two differ.  Raises InputError for any value that is not allowed.
     """
 
     integrator: str | None = None
@@ -33,6 +34,7 @@ class Numerics:
     interval: float = 0.5
     max_time: float = 1e5
     t_end: float | None = None
+    estimate_error: bool = False
 
     def __post_init__(self) -> None:
         if self.integrator is not None:
@@ -44,6 +46,7 @@ class Numerics:
             object.__setattr__(self, key, positive_number(key, getattr(self, key)))
         if self.t_end is not None:
             object.__setattr__(self, "t_end", positive_number("t_end", self.t_end))
+        object.__setattr__(self, "estimate_error", yes_or_no("estimate_error", self.estimate_error))
 
     def for_scene(self, scene: Scene) -> "Numerics":
         """The same with the scene's integrator where none was chosen; raises InputError for one that does not fit."""

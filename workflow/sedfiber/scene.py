@@ -7,7 +7,7 @@ from typing import Any
 from sedfiber._typing import Positions
 from sedfiber.errors import InputError
 from sedfiber.scene_parts import Bending, Contact, Disturbance, Fiber, Flow, Gravity, Noise, Own, Stretching, Wall
-from sedfiber.scene_rules import require_sense
+from sedfiber.scene_rules import is_symmetric, require_sense
 from sedfiber.start import fiber_angle, read_shape, start_positions
 from sedfiber.validation import number_within, one_of, positive_number, refused, whole_number
 
@@ -129,6 +129,11 @@ class Scene:
         elastic = self.stretching is not None and self.bending is not None and self.bending.curvature == 0.0
         falls = self.gravity == Gravity() and self.hydrodynamics in ("RPY", "RPY-overlap")
         return falls and elastic and not self.fibers and self.n_beads >= 3 and not any(extras)
+
+    @property
+    def is_mirror_symmetric(self) -> bool:
+        """Whether exact left–right symmetry was asked for, by ``tilt = 0``, and start and effects have it."""
+        return self.tilt == 0.0 and is_symmetric(self)
 
     def to_dict(self) -> dict:
         """Plain values for a file's metadata; parts that a scene need not have appear only if it has them."""

@@ -6,11 +6,11 @@ import numpy as np
 
 from sedfiber._typing import Positions
 from sedfiber.errors import InputError
+from sedfiber.physics.definiteness import CLOSE, closest_pair, least_eigenvalue
 
 if TYPE_CHECKING:
     from sedfiber.scene import Scene
 
-LEAST_POSITIVE = 1.13  # a: below it a pair makes plain RPY lose positive definiteness
 _TOUCHING = 2.0 * (1.0 - 1e-9)
 
 
@@ -34,6 +34,20 @@ def require_sense(scene: "Scene") -> None:
         _require_apart(scene, scene.start())
     if scene.hydrodynamics == "Oseen":
         _require_positive(scene, scene.start())
+
+
+def is_symmetric(scene: "Scene") -> bool:
+    """Whether the start is its own image by ``x → −x`` with the beads reversed, to the last bit, and nothing tells
+    left from right.
+    """
+    one_sided = scene.flow, scene.noise, *scene.own
+    if any(one_sided) or scene.n_fibers > 1 or (scene.gravity is not None and scene.gravity.direction[0] != 0.0):
+        return False
+    if scene.wall is not None and scene.wall.normal[0] != 0.0:
+        return False
+    x = scene.start()
+    x = x - x[scene.n_beads // 2]
+    return np.array_equal(x[::-1, 0], -x[:, 0]) and np.array_equal(x[::-1, 1:], x[:, 1:])
 
 
 def _require_flat(scene: "Scene") -> None:
@@ -72,30 +86,26 @@ def _require_apart(scene: "Scene", x: Positions) -> None:
             f"hydrodynamics: Oseen with beads that overlap ({i} and {j} are {r:.4g} a apart) is not allowed; "
             "give RPY-overlap"
         )
-    if scene.hydrodynamics == "RPY" and r < LEAST_POSITIVE:
-        raise InputError(
-            f"hydrodynamics: plain RPY is not positive definite for beads {i} and {j}, {r:.4g} a apart; "
-            "give RPY-overlap"
-        )
-
-
-def closest_pair(x: Positions) -> tuple[int, int, float]:
-    """The two beads whose centres are closest, and their distance."""
-    best = (0, 0, np.inf)
-    for i in range(len(x) - 1):
-        r = np.linalg.norm(x[i + 1 :] - x[i], axis=1)
-        if r.min() < best[2]:
-            best = (i, i + 1 + int(r.argmin()), float(r.min()))
-    return best
+    if scene.hydrodynamics == "RPY" and r < CLOSE:
+        least = _least_eigenvalue(scene, x)
+        if least <= 0.0:
+            raise InputError(
+                f"hydrodynamics: plain RPY is not positive definite for beads {i} and {j}, {r:.4g} a apart "
+                f"(smallest eigenvalue {least:.2g}); give RPY-overlap"
+            )
 
 
 def _require_positive(scene: "Scene", x: Positions) -> None:
     """Oseen's tensor for many touching beads moves some of them against the pull."""
-    from sedfiber.physics.pair_mobility import PairMobility  # compiled: only for those who ask
-
-    least = float(np.linalg.eigvalsh(PairMobility("Oseen", scene.dim).matrix(x))[0])
+    least = _least_eigenvalue(scene, x)
     if least <= 0.0:
         raise InputError(
             f"hydrodynamics: Oseen is not positive definite for these {len(x)} beads (smallest eigenvalue "
             f"{least:.2g}): it moves some against the pull; give RPY"
         )
+
+
+def _least_eigenvalue(scene: "Scene", x: Positions) -> float:
+    from sedfiber.physics.pair_mobility import PairMobility  # compiled: only for those who ask
+
+    return least_eigenvalue(PairMobility(scene.hydrodynamics, scene.dim), x)

@@ -93,5 +93,6 @@ def number_name(value: float) -> str:
 
 
 def as_options(values: dict[str, Any]) -> str:
-    """``{"n_beads": 31}`` as ``--n-beads 31``."""
-    return " ".join(f"--{key.replace('_', '-')} {value}" for key, value in values.items())
+    """``{"n_beads": 31, "json": True}`` as ``--n-beads 31 --json``; what is false is left out."""
+    words = [(f"--{key.replace('_', '-')}", value) for key, value in values.items() if value is not False]
+    return " ".join(option if value is True else f"{option} {value}" for option, value in words)

@@ -35,6 +35,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--rtol", help=f"relative tolerance ({Numerics.rtol:g})")
     parser.add_argument("--atol", help=f"absolute tolerance, a ({Numerics.atol:g})")
     parser.add_argument("--interval", help=f"sample spacing, a/U_s ({Numerics.interval})")
+    parser.add_argument(
+        "--estimate-error", action="store_true", default=None, help="record how far a run at tighter tolerances is off"
+    )
     parser.add_argument("--max-time", help=f"settle by this time or fail, a/U_s ({Numerics.max_time:g})")
 
 

@@ -47,8 +47,3 @@ def _steepest(scene: Scene) -> float:
         reach = scene.n_beads + float(np.abs(scene.start()[:, 1]).max())
         return 4.0 * abs(flow.peak) * reach / flow.half_width**2
     return abs(flow.rate) if flow.gradient is None else float(np.linalg.norm(flow.gradient, 2))
-
-
-def gap_bound(scene: Scene) -> float | None:
-    """Least gap of beads that are not neighbours: what the mobility stands; the overlap form stands all."""
-    return {"RPY": -0.8, "Oseen": 0.0}.get(scene.hydrodynamics)

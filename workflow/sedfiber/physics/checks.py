@@ -6,11 +6,13 @@ import numpy as np
 
 from sedfiber._typing import Array, History, State
 from sedfiber.errors import NumericalError
-from sedfiber.physics.bounds import gap_bound, strain_bound
-from sedfiber.physics.gaps import smallest_gap
+from sedfiber.physics.bounds import strain_bound
+from sedfiber.physics.definiteness import CLOSE, REMEDY, least_eigenvalue
+from sedfiber.physics.gaps import closest_distance, smallest_gap
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
 
+_LOOKED_AT = 32  # samples of closest approach whose mobility is examined
 ENERGY_BALANCE = 1e-4  # of the energy lost; the default tolerances reach about 1e-6
 
 
@@ -19,7 +21,8 @@ class Checks:
     """Measured on the samples; lengths in a, energies in 6πμaU_s·a; None where it means nothing.
 
     ``bond_strain_max`` is the largest ``|r/2 − 1|``; ``smallest_gap`` the least surface distance
-    of beads that are not neighbours; ``wall_gap`` that of a bead and the wall; ``energy_imbalance``
+    of beads that are not neighbours; ``wall_gap`` that of a bead and the wall; ``least_mobility`` the
+    smallest eigenvalue of a mobility that can lose it, where beads overlap; ``energy_imbalance``
     the largest ``|U(0) − U(t) − ∫F·ẋ dt|`` over all energy gained or lost in the run;
     ``final_distance`` that to the terminal shape over L.  The bounds are those of
     ``physics.bounds``, and 1e-4 on the energy.
@@ -28,11 +31,11 @@ class Checks:
     bond_strain_max: float | None
     strain_bound: float | None
     smallest_gap: float | None
-    gap_bound: float | None
     energy_imbalance: float | None
     energy_bound: float | None
     final_distance: float | None
     wall_gap: float | None = None
+    least_mobility: float | None = None
 
     def to_dict(self) -> dict:
         """Plain values for a file's metadata."""
@@ -43,9 +46,11 @@ class Checks:
         noisy = self.energy_bound is None
         accuracy = "try a smaller noise.step" if noisy else "try a smaller --rtol or another --integrator"
         self._bound("bond strain", self.bond_strain_max, self.strain_bound, accuracy)
-        if self.gap_bound is not None and self.smallest_gap is not None:
-            advice = "add contact, or give hydrodynamics RPY-overlap"
-            self._bound("overlap of beads that are not neighbours", -self.smallest_gap, -self.gap_bound, advice)
+        if self.least_mobility is not None and not self.least_mobility > 0.0:
+            raise NumericalError(
+                f"check failed: beads overlap until the mobility is not positive definite (smallest eigenvalue "
+                f"{self.least_mobility:.3g}); {REMEDY}"
+            )
         if self.wall_gap is not None:
             self._bound("a bead's depth in the wall", -self.wall_gap, 0.1, "add contact, or end before it gets there")
         self._bound("energy imbalance", self.energy_imbalance, self.energy_bound, accuracy)
@@ -65,11 +70,11 @@ def check(system: System, states: State, scene: Scene, final_distance: float | N
         bond_strain_max=_largest_strain(shapes, scene.n_beads),
         strain_bound=strain_bound(scene),
         smallest_gap=_smallest_gap(shapes, scene.n_beads),
-        gap_bound=gap_bound(scene),
         energy_imbalance=_energy_imbalance(system, scene, positions, states[:, -1]) if balanced else None,
         energy_bound=ENERGY_BALANCE if balanced else None,
         final_distance=final_distance,
         wall_gap=None if scene.wall is None else float(_heights(scene, positions).min()) - 1.0,
+        least_mobility=_least_mobility(system, positions) if scene.hydrodynamics in ("RPY", "Oseen") else None,
     )
 
 
@@ -84,6 +89,14 @@ def _smallest_gap(shapes: History, n_beads: int) -> float | None:
     """None when all beads are neighbours."""
     gap = min(smallest_gap(x, n_beads) for x in shapes)
     return None if np.isinf(gap) else gap
+
+
+def _least_mobility(system: System, positions: History) -> float | None:
+    """Over the samples where beads come closest; None where none come close."""
+    nearest = np.array([closest_distance(np.ascontiguousarray(x)) for x in positions])
+    close = np.argsort(nearest, kind="stable")[:_LOOKED_AT]
+    found = [least_eigenvalue(system.mobility, positions[k]) for k in close if nearest[k] < CLOSE]
+    return min(found, default=None)
 
 
 def _heights(scene: Scene, positions: History) -> Array:

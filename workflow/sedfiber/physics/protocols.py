@@ -7,7 +7,7 @@ positions in the laboratory, which a wall or a flow needs.
 
 from typing import Protocol
 
-from sedfiber._typing import Band, Matrix, Positions
+from sedfiber._typing import Band, Matrix, Positions, State
 
 TO_THE_LAST = 1 << 62  # end of a range of beads that reaches to the last one
 
@@ -54,3 +54,16 @@ class Flow(Protocol):
 
     def add_jacobian(self, x: Positions, jac: Matrix) -> None:
         """Add ``∂u/∂x`` to ``jac``, at least (N d, N d)."""
+
+
+class Equations(Protocol):
+    """What an integrator asks of the equations of motion ``ẏ = f(t, y)``."""
+
+    rhs_count: int
+    jacobian_count: int
+
+    def rhs(self, t: float, y: State) -> State: ...
+    def jacobian(self, t: float, y: State) -> Matrix: ...
+
+    def loss_of_definiteness(self, y: State) -> str | None:
+        """Why no step may succeed at a state, where the mobility is to blame."""

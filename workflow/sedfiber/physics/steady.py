@@ -1,9 +1,8 @@
-"""Steady shapes: Newton on the force balance in the frame that falls with the fiber.
+"""Steady shapes that fall without changing: the terminal U, and the W of the symmetric fall at high ℬ.
 
-The unknowns are the bead positions relative to the centre bead (planar, 2(N−1) of them),
-the equations ``u_i(x) − u_c(x) = 0`` for every bead but the centre.  Translation is removed
-by the frame and gravity fixes the orientation, so the Jacobian is regular on the U branch.
-The branch is followed in ``log ℬ`` from the nearly straight state with a secant predictor.
+The U-shape is followed along ``steady_curve`` from the nearly straight fiber.  The W-shape is what
+an exactly symmetric fiber settles onto at high ℬ; it is unstable to left–right asymmetry and ends
+towards low ℬ in a fold.  For N = 31 the two are ends of one S-shaped curve, for other N they need not be.
 """
 
 from dataclasses import dataclass, replace
@@ -13,16 +12,19 @@ import numpy as np
 from sedfiber._typing import Array, Positions
 from sedfiber.errors import InputError, NumericalError
 from sedfiber.physics.assembly import assemble
-from sedfiber.physics.system import System
+from sedfiber.physics.integrators import LSODAMarch, Tolerances
+from sedfiber.physics.mirror import MirrorSymmetric
+from sedfiber.physics.steady_curve import CurvePoint, SteadyCurve
 from sedfiber.scene import Scene
+from sedfiber.validation import one_of
 
+BRANCHES = ("U", "W")
 NEARLY_STRAIGHT = 10.0  # ℬ from which the straight fiber is a good first guess
-TOLERANCE = 1e-10  # on the largest relative bead speed, in U_s
-_MAX_NEWTON = 12
-_FIRST_STEP, _LAST_STEP = 0.2, 1e-4  # in log ℬ
-_LARGEST_CORRECTION = 0.02  # of L, by which Newton may move a bead from the prediction
-_LAST_CORRECTION = 1e-5  # of the height, by which the last Newton step may still move a bead
-_POLISHED = 3  # converged iterates to choose from
+_FALLS = (1.0, 2.0, 4.0, 8.0)  # times ℬ = 10000, where symmetric falls are tried for a W
+_ROUGHLY_STEADY = 1e-6  # U_s: relative bead speeds from which Newton takes over
+_LONGEST_FALL = 20_000  # a/U_s
+_NEAR = 1e-3  # arclength from which Newton finds the state at a given ℬ
+_APART = 1e-2  # of L: shapes that differ by more are two states
 
 
 @dataclass(frozen=True)
@@ -30,13 +32,14 @@ class SteadyState:
     """A shape that falls without changing.
 
     ``positions`` (N, 3) relative to the centre bead in units of a; ``velocity`` (3,) in U_s;
-    ``residual`` is the largest speed of a bead relative to the centre bead.
+    ``residual`` is the largest speed of a bead relative to the centre bead; ``branch`` is "U" or "W".
     """
 
     B: float
     positions: Positions
     velocity: Array
     residual: float
+    branch: str = "U"
 
     @property
     def height(self) -> float:
@@ -54,92 +57,116 @@ class SteadyState:
         return float(np.linalg.norm(self.velocity))
 
 
-def steady_state(B: float, n_beads: int = 31, hydrodynamics: str = "RPY") -> SteadyState:
-    """Terminal U-shape and velocity at one elasto-gravitational number.
+def steady_state(B: float, n_beads: int = 31, hydrodynamics: str = "RPY", branch: str = "U") -> SteadyState:
+    """Shape and velocity at one elasto-gravitational number: the terminal U, or the unstable W.
 
     Raises InputError for values that are not allowed and NumericalError when the branch
-    cannot be followed to ``B``.
+    does not reach ``B``, with the ℬ of the fold it ends in.
     """
-    return terminal_state(Scene(B, 0.0, n_beads, hydrodynamics=hydrodynamics))
+    return terminal_state(Scene(B, 0.0, n_beads, hydrodynamics=hydrodynamics), branch)
 
 
-def terminal_state(scene: Scene) -> SteadyState:
-    """Terminal U-shape and velocity of a scene that has one, with just its effects.
+def terminal_state(scene: Scene, branch: str = "U") -> SteadyState:
+    """Steady shape and velocity of a scene that has one, with just its effects.
 
     Raises InputError for a scene without a terminal shape and NumericalError when the branch
-    cannot be followed to its ℬ.
+    does not reach its ℬ.
     """
+    one_of("branch", branch, BRANCHES)
     if not scene.has_terminal_shape:
         raise InputError("steady: this scene has no terminal shape; it needs gravity, a fiber of 3 beads or more, RPY")
-    flat = replace(scene, space="plane", theta0=0.0, tilt=0.0, shape=None, disturbance=None)
-    x = _follow_branch(replace(flat, B=min(scene.B, NEARLY_STRAIGHT)), scene.B)
-    system = assemble(flat)
-    velocity, residual = _relative_speeds(system, x)
+    curve = SteadyCurve(scene)
+    seed = straight_point(scene, curve) if branch == "U" else w_point(scene, curve)
+    state = state_of(_reach(curve, seed, scene.B, branch), scene, branch)
+    return replace(state, B=scene.B)  # not what its logarithm makes of it
+
+
+def state_of(point: CurvePoint, scene: Scene, branch: str) -> SteadyState:
+    """A point of the steady curve as a state, with its velocity and residual."""
+    system = assemble(replace(planar(scene), B=point.B))
+    velocity = system.velocity(point.positions)
+    residual = velocity - velocity[system.centre]
     positions, fall = np.zeros((scene.n_beads, 3)), np.zeros(3)
-    positions[:, :2], fall[:2] = x, velocity[system.centre]
-    return SteadyState(scene.B, positions, fall, float(np.abs(residual).max()))
+    positions[:, :2], fall[:2] = point.positions, velocity[system.centre]
+    return SteadyState(point.B, positions, fall, float(np.abs(residual).max()), branch)
 
 
-def _follow_branch(scene: Scene, target: float) -> Positions:
-    """Continue in log ℬ, halving the step where Newton strays from the prediction."""
-    at, goal, step = np.log(scene.B), np.log(target), _FIRST_STEP
-    x, slope = _solve(scene, scene.start()), 0.0
-    if x is None:
-        raise NumericalError(
-            f"steady: no nearly straight state found at B={scene.B:g} with {scene.n_beads} beads; "
-            "a fiber so stiff is rigid and round-off hides its balance, try a larger B"
-        )
-    while at < goal:
-        ahead = min(at + step, goal)
-        predicted = x + slope * (ahead - at)
-        found = _solve(replace(scene, B=float(np.exp(ahead))), predicted)
-        if found is None or np.abs(found - predicted).max() > _LARGEST_CORRECTION * scene.length:
-            step /= 2.0
-            if step < _LAST_STEP:
-                raise NumericalError(f"steady: the branch was lost near B={np.exp(at):.6g}")
-            continue
-        slope, x, at = (found - x) / (ahead - at), found, ahead
-        step = min(_FIRST_STEP, 1.5 * step)
-    return x
+def planar(scene: Scene) -> Scene:
+    """The same effects on a straight, horizontal, exactly symmetric fiber in the plane."""
+    return replace(scene, space="plane", theta0=0.0, tilt=0.0, shape=None, disturbance=None)
 
 
-def _solve(scene: Scene, guess: Positions) -> Positions | None:
-    """Newton from a guess to round-off; None when it does not get there.
+def straight_point(scene: Scene, curve: SteadyCurve) -> CurvePoint:
+    """The start of the U branch: a nearly straight shape at ℬ = 10, or at the scene's if that is less."""
+    B = min(scene.B, NEARLY_STRAIGHT)
+    point = curve.nearest(B, planar(scene).start())
+    if point is None:
+        raise NumericalError(f"steady: no nearly straight state found at B={B:g} with {scene.n_beads} beads")
+    return point
 
-    Converged means: the balance holds to the tolerance plus round-off, and the last step was
-    a negligible part of the deflection (for a very stiff fiber round-off hides the balance).
-    Of a few such iterates the one with the smallest residual is taken.
+
+def w_point(scene: Scene, curve: SteadyCurve) -> CurvePoint:
+    """A point of the W branch near the scene's ℬ, from the exactly symmetric fall of a straight fiber.
+
+    Raises NumericalError where such falls find the U, or nothing.
     """
-    system = assemble(scene)
-    # differences of coordinates of size N carry a round-off of eps·N, times the modulus
-    noise = np.finfo(float).eps * scene.n_beads * scene.modulus
-    x, converged = guess, []
-    for _ in range(_MAX_NEWTON):
-        _, residual = _relative_speeds(system, x)
-        size = float(np.abs(residual).max())
-        if not np.isfinite(size):
-            return None
-        step = _newton_step(system, x, residual)
-        if size < TOLERANCE + noise and np.abs(step).max() < _LAST_CORRECTION * np.ptp(x[:, 1]):
-            converged.append((size, x))
-        if len(converged) == _POLISHED or (converged and size < 1e-2 * TOLERANCE):
+    towards = NEARLY_STRAIGHT * 1e3
+    for factor in _FALLS:
+        B = towards * factor
+        fallen = _symmetric_fall(replace(planar(scene), B=B))
+        point = None if fallen is None else curve.nearest(B, fallen, np.sign(scene.B - B) or 1.0)
+        if point is not None and not _is_U(point, scene):
+            return point
+    raise NumericalError(
+        f"steady: no W found with {scene.n_beads} beads; from B={towards:g} to {towards * _FALLS[-1]:g} "
+        "symmetric fibers settle onto the U, or collapse"
+    )
+
+
+def _symmetric_fall(scene: Scene) -> Positions | None:
+    """Where an exactly symmetric fiber comes to rest, (N, 2); None when it does not."""
+    system = MirrorSymmetric(assemble(scene))
+    interval = 20.0
+    march = LSODAMarch(system, Tolerances(1e-8, 1e-8))
+    try:
+        for k, y in enumerate(march.states(system.to_state(scene.start()), interval)):
+            if k and np.abs(system.relative_velocities(y)).max() < _ROUGHLY_STEADY:
+                return system.to_shapes(y)[:, :2]
+            if k * interval > _LONGEST_FALL:
+                break
+    except NumericalError:  # few beads collapse where plain RPY is not positive definite
+        pass
+    return None
+
+
+def _is_U(point: CurvePoint, scene: Scene) -> bool:
+    """Whether the terminal U at the point's ℬ exists and is this shape."""
+    try:
+        terminal = terminal_state(replace(scene, B=point.B)).positions[:, :2]
+    except NumericalError:
+        return False
+    return bool(np.sqrt(((point.positions - terminal) ** 2).sum(axis=1).mean()) < _APART * scene.length)
+
+
+def _reach(curve: SteadyCurve, seed: CurvePoint, B: float, branch: str) -> CurvePoint:
+    """The point of a branch at ``B``, polished; raises NumericalError where a fold ends the branch before."""
+    goal, last = float(np.log(B)), seed
+    side = np.sign(goal - seed.unknowns[-1])
+    if side == 0.0:
+        return seed
+    for point in curve.follow(seed):
+        if side * point.tangent[-1] <= 0.0:
+            point = curve.fold(last, point)
+            if side * (point.unknowns[-1] - goal) < 0.0:
+                raise NumericalError(
+                    f"steady: there is no {branch} at B={B:g}; with {curve.n_beads} beads "
+                    f"it ends in a fold at B={point.B:.6g}"
+                )
+        if side * (point.unknowns[-1] - goal) >= 0.0:
             break
-        x = x - step
-    return min(converged, key=lambda pair: pair[0])[1] if converged else None
-
-
-def _relative_speeds(system: System, x: Positions) -> tuple[Positions, Positions]:
-    """Velocities (N, d), and the same relative to the centre bead's."""
-    u = system.velocity(x)
-    return u, u - u[system.centre]
-
-
-def _newton_step(system: System, x: Positions, residual: Positions) -> Positions:
-    """Correction (N, d) that leaves the centre bead at the origin."""
-    n, d = system.shape
-    jac = system.velocity_jacobian(x).reshape(n, d, n * d)
-    relative = (jac - jac[system.centre]).reshape(n * d, n * d)
-    keep = np.arange(n * d) // d != system.centre
-    step = np.zeros(n * d)
-    step[keep] = np.linalg.solve(relative[np.ix_(keep, keep)], residual.ravel()[keep])
-    return step.reshape(n, d)
+        last = point
+    near = curve.crossing(last, point, lambda p: p.unknowns[-1] - goal, _NEAR)
+    found = curve.nearest(B, near.positions)
+    if found is None:
+        raise NumericalError(f"steady: the branch was lost near B={last.B:.6g}")
+    return found

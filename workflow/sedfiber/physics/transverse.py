@@ -36,11 +36,18 @@ def transverse_matrix(spatial: System, x: Positions) -> Matrix:
 def leading_rate(matrix: Matrix, x: Positions | None) -> float:
     """Largest real part of an eigenvalue; without the mode nearest to a turn about gravity if ``x`` is given."""
     rates, modes = np.linalg.eig(matrix)
-    if x is None:
-        return float(rates.real.max())
-    centre = len(x) // 2
-    turn = np.delete(x[:, 0] - x[centre, 0], centre)
-    if not turn.any():  # exactly vertical: every turn leaves it where it is
+    turn = None if x is None else turn_about_gravity(x)
+    if turn is None:
         return float(rates.real.max())
     likeness = np.abs(modes.conj().T @ turn)  # modes have length one
     return float(np.delete(rates, likeness.argmax()).real.max())
+
+
+def turn_about_gravity(x: Positions) -> Array | None:
+    """Out-of-plane displacement (beads − 1,) by a turn about the vertical, relative to the centre bead.
+
+    None for beads exactly above each other: a turn leaves them where they are.
+    """
+    centre = len(x) // 2
+    turn = np.delete(x[:, 0] - x[centre, 0], centre)
+    return turn if turn.any() else None

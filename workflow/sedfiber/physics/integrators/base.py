@@ -8,7 +8,8 @@ import numpy as np
 
 from sedfiber._typing import State
 from sedfiber.errors import NumericalError
-from sedfiber.physics.system import System
+from sedfiber.physics.definiteness import REMEDY
+from sedfiber.physics.protocols import Equations
 
 
 @dataclass(frozen=True)
@@ -38,7 +39,7 @@ class March(ABC):
 
     name: str
 
-    def __init__(self, system: System, tolerances: Tolerances):
+    def __init__(self, system: Equations, tolerances: Tolerances):
         self.system = system
         self.tolerances = tolerances
         self.counters = Counters()
@@ -50,6 +51,11 @@ class March(ABC):
     def failed(self, t: float, why: str, advice: str) -> NumericalError:
         """The error for a march that stops at time ``t``."""
         return NumericalError(f"{self.name}: {why} at t = {t:.6g} a/U_s; {advice}")
+
+    def stuck(self, t: float, y: State, why: str, advice: str) -> NumericalError:
+        """The error for steps that fail at state ``y``: where beads collapsed onto each other, that is why."""
+        collapse = self.system.loss_of_definiteness(y)
+        return self.failed(t, collapse, REMEDY) if collapse else self.failed(t, why, advice)
 
     def require_finite(self, t: float, y: State) -> State:
         """``y`` itself, or NumericalError when a coordinate is NaN or infinite."""

@@ -43,5 +43,5 @@ class Dopri5(March):
         self.counters.rhs = self.system.rhs_count
         if not solver.successful():
             why = f"gave up, the problem is probably stiff (return code {solver.get_return_code()})"
-            raise self.failed(solver.t, why, "use an implicit --integrator, such as the default")
+            raise self.stuck(solver.t, y, why, "use an implicit --integrator, such as the default")
         return self.require_finite(solver.t, y)

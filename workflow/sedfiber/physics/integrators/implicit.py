@@ -34,7 +34,7 @@ class _SciPyMarch(March):
         while True:
             self._step(solver)
             if self.counters.steps - steps_before > _MAX_STEPS_PER_SAMPLE:
-                raise self.failed(solver.t, "too many steps in one sample", "try another --integrator")
+                raise self.stuck(solver.t, solver.y, "too many steps in one sample", "try another --integrator")
             if sample * interval > solver.t:
                 continue
             path = solver.dense_output()
@@ -51,8 +51,8 @@ class _SciPyMarch(March):
         self.counters.factorisations = int(solver.nlu)
         self.require_finite(solver.t, solver.y)
         if solver.status != "running" or solver.t <= before:
-            why = message or "the step size fell to zero"
-            raise self.failed(solver.t, why, "try another --rtol or --integrator")
+            why = (message or "the step size fell to zero").rstrip(".")
+            raise self.stuck(solver.t, solver.y, why, "try another --rtol or --integrator")
 
 
 class BDFMarch(_SciPyMarch):

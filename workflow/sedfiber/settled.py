@@ -1,0 +1,75 @@
+"""Whether a run has come to rest, and in which steady shape: the terminal U, or the W of a symmetric fall."""
+
+import numpy as np
+
+from sedfiber._typing import Positions, State
+from sedfiber.errors import NumericalError
+from sedfiber.physics.mirror import MirrorSymmetric
+from sedfiber.physics.settling import CONFIRMED, SETTLED, distance_to_terminal
+from sedfiber.physics.steady import terminal_state
+from sedfiber.physics.system import System
+from sedfiber.scene import Scene
+
+_STANDSTILL = 1e-9  # U_s: relative bead speeds below this mean that the shape is steady
+_RESTING = 1e-5  # U_s: below this a shape may be compared with the W
+
+
+class Watch:
+    """Looks at the states of a run of ``scene`` and knows the shapes that it may settle to.
+
+    ``terminal`` (N, 3) is the terminal U relative to the centre bead, or None where the scene has
+    none.  A run may do without one if it has an end of its own, or is exactly symmetric.
+    """
+
+    def __init__(self, scene: Scene, system: System | MirrorSymmetric, ends: bool, max_time: float):
+        self._scene, self._system, self._max_time = scene, system, max_time
+        self._symmetric = isinstance(system, MirrorSymmetric)
+        self.terminal = self._terminal(needed=not (ends or self._symmetric))
+
+    def is_over(self, t: float, y: State) -> bool:
+        """Whether the run at time ``t`` has settled beyond doubt; raises NumericalError when it never will."""
+        distance = self.distance(y)
+        if distance < CONFIRMED:
+            return True
+        if t > self._max_time:
+            raise NumericalError(
+                f"simulate: not settled by t = {self._max_time:g} (distance {distance:.3g} L); give --t-end"
+            )
+        if distance < SETTLED or np.abs(self._system.relative_velocities(y)).max() > _STANDSTILL:
+            return False
+        if self._symmetric and self.settled_to(y) is not None:
+            return True
+        name = "the unstable W" if self.settled_to(y) == "W" else "a steady shape"
+        raise NumericalError(
+            f"simulate: came to rest at t = {t:g} in {name}, {distance:.3g} L from the terminal one; "
+            "give --t-end, or a larger --tilt to leave a symmetric start"
+        )
+
+    def settled_to(self, y: State) -> str | None:
+        """Name of the steady shape that a state is within 1e-3 L of: "U", "W" if it rests there, or None."""
+        if self.distance(y) < SETTLED:
+            return "U"
+        if not self._scene.has_terminal_shape or np.abs(self._system.relative_velocities(y)).max() > _RESTING:
+            return None
+        try:
+            w = terminal_state(self._scene, "W").positions
+        except NumericalError:
+            return None
+        return "W" if self._distance(y, w) < SETTLED else None
+
+    def distance(self, y: State) -> float:
+        """Root-mean-square bead distance to the terminal U over L; infinite where there is none."""
+        return np.inf if self.terminal is None else self._distance(y, self.terminal)
+
+    def _distance(self, y: State, shape: Positions) -> float:
+        return float(distance_to_terminal(self._system.to_shapes(y), shape, self._scene.length))
+
+    def _terminal(self, needed: bool) -> Positions | None:
+        if not self._scene.has_terminal_shape:
+            return None
+        try:
+            return terminal_state(self._scene).positions
+        except NumericalError as error:
+            if needed:
+                raise NumericalError(f"{error}; give --t-end to simulate without settling") from None
+            return None
