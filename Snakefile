@@ -2,7 +2,8 @@
 # rules simulations, dataset, autoencoders, node, forecasts and errors makes one stage and what
 # it needs. Not part of everything: check_simulations runs every simulation a second time; scenes
 # runs and draws the files in scenes/; effects measures what each effect costs and changes;
-# third_dimension finds where planar motion ceases to be stable.
+# third_dimension finds where planar motion ceases to be stable; states follows all steady states;
+# hard_cases measures the program where such programs usually break.
 
 
 configfile: "config.yaml"
@@ -17,6 +18,8 @@ include: "workflow/rules/forecasts.smk"
 include: "workflow/rules/errors.smk"
 include: "workflow/rules/figures.smk"
 include: "workflow/rules/scenes.smk"
+include: "workflow/rules/states.smk"
+include: "workflow/rules/hard_cases.smk"
 
 
 STUDY_RESULTS = [

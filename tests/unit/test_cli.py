@@ -63,7 +63,7 @@ def test_simulate_passes_every_option_on(tmp_path):
     """Each option reaches the scene or the numerics, as the metadata shows."""
     path = tmp_path / "traj.parquet"
     options = "--space volume --hydrodynamics RPY-overlap --tilt 2e-4 --seed 3 --integrator BDF --rtol 1e-7 --atol 1e-6"
-    argv = [*SIMULATE, *options.split(), "--interval", "0.25", "--max-time", "50", "-o", path]
+    argv = [*SIMULATE, *options.split(), "--interval", "0.25", "--max-time", "50", "--estimate-error", "-o", path]
     assert status_of(argv) == 0
     facts = read_trajectory(path).metadata
     assert facts["scene"] == {
@@ -73,6 +73,7 @@ def test_simulate_passes_every_option_on(tmp_path):
     }  # fmt: skip
     assert facts["numerics"] == {
         "integrator": "BDF", "rtol": 1e-7, "atol": 1e-6, "interval": 0.25, "max_time": 50.0, "t_end": 2.0,
+        "estimate_error": True,
     }  # fmt: skip
 
 
@@ -112,7 +113,36 @@ def test_steady_prints_one_json_object(capsys):
     assert values["residual"] <= 1e-10
     assert values["B_force_consistent"] == pytest.approx(2000 / 3)
     assert values["modulus"] == pytest.approx(714.984)
-    assert all(isinstance(value, int | float) for value in values.values())
+    assert values["branch"] == "U"
+    assert (values["stable_in_plane"], values["stable_in_volume"]) == (True, True)
+    assert values["in_plane_rate"] < values["out_of_plane_rate"] < 0.0
+    assert all(isinstance(value, int | float) for key, value in values.items() if key != "branch")
+
+
+def test_steady_finds_the_unstable_w(capsys):
+    """`--branch W` at ℬ = 10000: flatter than the U, unstable in the plane; text and JSON say the same."""
+    assert status_of(["steady", "--B", "10000", "--branch", "W", "--json"]) == 0
+    values, state = json.loads(capsys.readouterr().out), steady_state(10000, branch="W")
+    assert (values["branch"], values["height"]) == ("W", state.height)
+    assert values["height"] < 0.6 * steady_state(10000).height
+    assert (values["stable_in_plane"], values["stable_in_volume"]) == (False, False)
+    assert values["in_plane_rate"] == pytest.approx(0.0809, abs=1e-4)
+    assert status_of(["steady", "--B", "10000", "--branch", "W"]) == 0
+    lines = dict(line.split() for line in capsys.readouterr().out.splitlines())
+    assert lines == {key: str(value) for key, value in values.items()}
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (["--B", "10000", "--branch", "V"], "branch: 'V' is not allowed; give one of U, W"),
+        (["--B", "5000", "--branch", "W"], "it ends in a fold at B=6975.04"),
+        (["--B", "70000"], "it ends in a fold at B=63299.4"),
+    ],
+)
+def test_steady_refuses_a_branch_that_is_not_there(capsys, words, reason):
+    """One line; where a fold ends the branch, it says where."""
+    assert reason in complaint(capsys, ["steady", *words], 1)
 
 
 def test_steady_prints_the_same_for_people(capsys):

@@ -10,7 +10,8 @@ import pytest
 import yaml
 
 from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
-from sedfiber.source_files import PACKAGE, command_sources
+from sedfiber.hard_cases.listing import CASES
+from sedfiber.source_files import PACKAGE, command_sources, module_sources
 
 REPOSITORY = Path(__file__).parents[2]
 pytestmark = pytest.mark.xdist_group("workflow")
@@ -121,8 +122,10 @@ OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml"}  # where 
         ("simulate", ["simulate", "solve_terminal_shapes", "check_simulation"]),
         ("analysis", ["aggregate_dataset", "tabulate_trajectories", "tabulate_timings", "write_manifest"]),
         ("analysis", ["tabulate_audit", "compare_third_dimension", "measure_effects", "benchmark_parts"]),
-        ("figures", ["plot_scene", "plot_effects", "plot_third_dimension"]),
+        ("analysis", ["trace_states", "tabulate_hard_cases"]),
+        ("figures", ["plot_scene", "plot_effects", "plot_third_dimension", "plot_states", "plot_hard_cases"]),
         ("learning", ["train_autoencoder", "train_node", "forecast_test_set", "tabulate_forecast_errors"]),
+        ("learning", ["measure_hard_case"]),
         ("figures", ["plot_reconstruction", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"]),
     ],
 )
@@ -131,7 +134,8 @@ def test_conda_environments_hold_what_their_commands_import(environment, command
     listed = yaml.safe_load((REPOSITORY / f"envs/{environment}.yaml").read_text())["dependencies"][-1]["pip"]
     available = {package.partition("==")[0] for package in listed}
     for command in commands:
-        for path in command_sources(command):
+        by_name = [f"hard_cases.{case.module}" for case in CASES] if command == "measure_hard_case" else []
+        for path in {*command_sources(command), *(path for module in by_name for path in module_sources(module))}:
             foreign = {OUTSIDE.get(name, name) for name in _imported(path) - set(sys.stdlib_module_names)}
             assert foreign - {"sedfiber"} <= available, f"{path.name} of {command}"
 

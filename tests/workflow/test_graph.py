@@ -32,6 +32,8 @@ def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
         ("check_simulations", {"check_simulation", "tabulate_checks"}),
         ("scenes", {"simulate_scene", "plot_scene", "tabulate_scene_audit"}),
         ("third_dimension", {"compare_third_dimension", "plot_third_dimension"}),
+        ("states", {"trace_states", "plot_states"}),
+        ("hard_cases", {"measure_hard_case", "tabulate_hard_cases", "plot_hard_cases"}),
         ("effects", {"measure_effects", "plot_effects", "benchmark_parts"}),
     ],
 )
@@ -48,6 +50,17 @@ def test_a_stage_plans_nothing_beyond_itself(empty):
     assert set(empty.planned("scenes")) == {"simulate_scene", "plot_scene", "tabulate_scene_audit"}
     assert set(empty.planned("dataset")) == {"simulate", "aggregate_dataset", "solve_terminal_shapes"}
     assert not {"train_node", "forecast_test_set"} & set(empty.planned("autoencoders"))
+
+
+def test_a_hard_case_reruns_with_the_module_that_measures_it(empty):
+    """The module is imported by name when the case runs; a change of another case's module reruns nothing."""
+    result = "results/hard_cases/nonsense_starts.csv"
+    run = empty.snakemake("-j1", result)
+    assert run.returncode == 0, run.stdout + run.stderr
+    empty.append("workflow/sedfiber/hard_cases/tolerance_cases.py", "# a comment")
+    assert empty.planned(result) == {}
+    empty.append("workflow/sedfiber/hard_cases/start_cases.py", "# a comment")
+    assert empty.planned(result) == {"measure_hard_case": 1}
 
 
 def test_every_file_in_scenes_is_a_scene(empty):

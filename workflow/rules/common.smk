@@ -9,7 +9,8 @@ from pathlib import Path
 BASE = Path(workflow.basedir)
 sys.path.insert(0, str(BASE / "workflow"))
 
-from sedfiber.source_files import command_sources
+from sedfiber.hard_cases.listing import NAMES as HARD_CASES, case_of
+from sedfiber.source_files import command_sources, module_sources
 from sedfiber.study import Study, as_options
 
 STUDY = Study.from_config(config, BASE / "workflow/schemas/config.schema.yaml")
@@ -24,6 +25,7 @@ wildcard_constraints:
     seed=r"\d+",
     model=r"(?!lookup)\w+",
     scene=r"\w+",
+    case=r"\w+",
 
 
 # With --sdm conda each job's own python is meant, otherwise the one that runs this workflow.
@@ -92,6 +94,17 @@ def scene_files(scene):
         path for path in (BASE / "scenes").glob("*") if path.suffix in (".csv", ".npy", ".py")
     ]
     return [here(path) for path in [BASE / "scenes" / f"{scene}.yaml", *sorted(beside)]]
+
+
+def hard_case_sources(wildcards):
+    """What the command and the module that measures the case depend on."""
+    measured_in = module_sources(f"hard_cases.{case_of(wildcards.case).module}")
+    return sorted({*sources("measure_hard_case"), *map(here, measured_in)})
+
+
+def hard_case_model(wildcards):
+    """The trained model, for the cases that forecast."""
+    return model_files("results/models/forecast") if case_of(wildcards.case).needs_model else []
 
 
 SCENES = sorted(path.stem for path in (BASE / "scenes").glob("*.yaml"))

@@ -35,7 +35,7 @@ def read_runs(paths: list[Path], split: str) -> list[Run]:
 
 
 def facts_table(runs: list[Run]) -> pd.DataFrame:
-    """One row per trajectory: settling time, counters and checks."""
+    """One row per trajectory: settling time, counters, checks and estimated error."""
     return pd.DataFrame([_facts(run) for run in runs])
 
 
@@ -56,10 +56,12 @@ def _facts(run: Run) -> dict:
         "angle_index": run.angle_index,
         "B_force_consistent": meta["B_force_consistent"],
         "start_angle": run.theta0,
+        "settled_to": meta["settled_to"],
         "settling_time": meta["settling_time"],
         "samples": len(run.t),
         "integrator": meta["numerics"]["integrator"],
         "rtol": meta["numerics"]["rtol"],
         **meta["counters"],
         **{name: meta["checks"][name] for name in CHECK_COLUMNS},
+        "error_estimate": meta["error_estimate"],
     }

@@ -3,6 +3,7 @@
 import argparse
 import re
 import sys
+import warnings
 from importlib import import_module
 from typing import NoReturn
 
@@ -20,6 +21,7 @@ COMMANDS = {
     "tabulate_checks": "the largest difference of every run from its check",
     "tabulate_audit": "what each run left out, and whether it mattered",
     "compare_third_dimension": "out-of-plane growth at each ℬ, predicted and run; where it turns",
+    "trace_states": "steady states against ℬ, their growth rates, and where they gain or lose stability",
     "measure_effects": "cost and influence of every effect on the study's scene",
     "benchmark_parts": "the study's scene against one kernel written for it alone",
     "train_autoencoder": "one autoencoder of one variant and latent dimension",
@@ -30,8 +32,12 @@ COMMANDS = {
     "tabulate_forecast_errors": "E(t) of all forecasts of both test sets",
     "tabulate_timings": "time of every stage, summed from the benchmark files",
     "write_manifest": "provenance: configuration, versions and a checksum of every output",
+    "measure_hard_case": "run one hard case and say what it was measured by",
+    "tabulate_hard_cases": "all hard cases in one table, the failing ones among them",
+    "plot_hard_cases": "figure: how far every hard case stays from its bounds",
     "plot_scene": "figure: snapshots of a run and what changes along the way",
     "plot_third_dimension": "figure: where the third dimension begins to matter",
+    "plot_states": "figure: steady states against ℬ, and where they are stable",
     "plot_effects": "figure: cost and influence of every effect",
     "plot_reconstruction": "figure: reconstruction loss against latent dimension",
     "plot_forecast_errors": "figure: ensemble-mean E over the settling period",
@@ -63,6 +69,7 @@ def main(argv: list[str] | None = None) -> int:
         if name == chosen:  # only the chosen command is imported
             import_module(f"sedfiber.commands.{name}").add_arguments(sub)
     args = parser.parse_args(argv)
+    warnings.filterwarnings("ignore", category=UserWarning, module="scipy.integrate")  # they become our errors
     try:
         import_module(f"sedfiber.commands.{args.command}").run(args)
     except SedfiberError as error:

@@ -10,6 +10,7 @@ from itertools import islice
 import numpy as np
 
 from sedfiber._typing import State
+from sedfiber.differences import largest_distance
 from sedfiber.errors import NumericalError
 from sedfiber.numerics import Numerics
 from sedfiber.physics.mirror import MirrorSymmetric
@@ -36,8 +37,7 @@ def estimate_error(scene: Scene, numerics: Numerics, system: System | MirrorSymm
     tight = replace(numerics, rtol=_tighter(numerics.rtol), atol=_tighter(numerics.atol))
     march = tight.march(system, scene)
     again = np.array(list(islice(march.states(system.to_state(scene.start()), tight.interval), len(states))))
-    offset = system.to_positions(again) - system.to_positions(states)
-    error = float(np.sqrt((offset**2).sum(axis=2).mean(axis=1)).max() / scene.length)
+    error = largest_distance(system.to_positions(again), system.to_positions(states), scene.length)
     loosest = _loosest(numerics)
     if loosest > LOOSE and not error <= PROPORTION * loosest:
         raise NumericalError(

@@ -61,12 +61,12 @@ def watch(scene: Scene, amplitude: float, t_end: float) -> Growth:
     """Run ``scene`` in volume with every bead displaced out of the plane by up to ``amplitude``."""
     disturbed = replace(scene, space="volume", disturbance=Disturbance(amplitude))
     run = simulate(disturbed, Numerics(rtol=_TIGHT, atol=_TIGHT, interval=1.0), t_end)
-    size, flattened = _out_of_plane(run.shape)
+    size, flattened = out_of_plane(run.shape)
     near = distance_to_terminal(flattened, terminal_state(scene).positions, scene.length) < SETTLED
     return Growth(run.t, size, _slope(run.t, size, near & (size > _LINEAR[0]) & (size < _LINEAR[1])))
 
 
-def _out_of_plane(shapes: History) -> tuple[Array, History]:
+def out_of_plane(shapes: History) -> tuple[Array, History]:
     """Root-mean-square distance (T,) from the vertical plane that fits best, and the shapes (T, N, 3) in that plane.
 
     ``shapes`` are relative to the centre bead, through which the plane goes.

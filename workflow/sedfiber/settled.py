@@ -6,6 +6,7 @@ from sedfiber._typing import Positions, State
 from sedfiber.errors import NumericalError
 from sedfiber.physics.mirror import MirrorSymmetric
 from sedfiber.physics.settling import CONFIRMED, SETTLED, distance_to_terminal
+from sedfiber.physics.spectrum import leaving_rate, round_off
 from sedfiber.physics.steady import terminal_state
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
@@ -25,6 +26,8 @@ class Watch:
         self._scene, self._system, self._max_time = scene, system, max_time
         self._symmetric = isinstance(system, MirrorSymmetric)
         self.terminal = self._terminal(needed=not (ends or self._symmetric))
+        if not ends and self.terminal is not None:
+            self._require_attraction(system.to_state(scene.start()))
 
     def is_over(self, t: float, y: State) -> bool:
         """Whether the run at time ``t`` has settled beyond doubt; raises NumericalError when it never will."""
@@ -46,9 +49,9 @@ class Watch:
         )
 
     def settled_to(self, y: State) -> str | None:
-        """Name of the steady shape that a state is within 1e-3 L of: "U", "W" if it rests there, or None."""
+        """Name of the steady shape a state is within 1e-3 L of: "U" if it stays, "W" if it rests there, or None."""
         if self.distance(y) < SETTLED:
-            return "U"
+            return "U" if self._leaving_rate(y) < round_off(self._scene) else None
         if not self._scene.has_terminal_shape or np.abs(self._system.relative_velocities(y)).max() > _RESTING:
             return None
         try:
@@ -56,6 +59,20 @@ class Watch:
         except NumericalError:
             return None
         return "W" if self._distance(y, w) < SETTLED else None
+
+    def _leaving_rate(self, y: State) -> float:
+        """Largest rate in U_s/a at which a run that is at state ``y`` now can leave the terminal U."""
+        flat = not self._system.to_shapes(y)[:, 2].any()
+        return leaving_rate(self._scene, self.terminal, self._symmetric, flat)
+
+    def _require_attraction(self, start: State) -> None:
+        """A run without an end needs a terminal shape that it does not leave."""
+        rate = self._leaving_rate(start)
+        if rate >= round_off(self._scene) and not self._symmetric:
+            raise NumericalError(
+                f"simulate: at B={self._scene.B:g} the terminal U is unstable to what this run is free to do "
+                f"(rate {rate:.3g} U_s/a), and it will not settle; give --t-end"
+            )
 
     def distance(self, y: State) -> float:
         """Root-mean-square bead distance to the terminal U over L; infinite where there is none."""

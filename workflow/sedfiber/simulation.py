@@ -87,7 +87,7 @@ def _cut(
     if watch.terminal is None:
         return t, states, None, None
     history = distance_to_terminal(system.to_shapes(states), watch.terminal, scene.length)
-    settled = settling_time(t, history)
+    settled = settling_time(t, history) if watch.settled_to(states[-1]) == "U" else None
     keep = len(t) if settled is None or numerics.t_end is not None else int(np.searchsorted(t, settled)) + 1
     return t[:keep], states[:keep], settled, float(history[keep - 1])
 

@@ -14,7 +14,16 @@ def command_sources(command: str) -> list[Path]:
     Imports inside functions count too.  Packages' ``__init__.py`` are included where they
     contain code; the top one only maps public names and is left out, as is the dispatcher.
     """
-    todo, seen = [PACKAGE / "commands" / f"{command}.py"], set()
+    return _closure(PACKAGE / "commands" / f"{command}.py")
+
+
+def module_sources(module: str) -> list[Path]:
+    """The same for a module that a command imports by name, such as ``hard_cases.start_cases``."""
+    return _closure(PACKAGE.joinpath(*module.split(".")).with_suffix(".py"))
+
+
+def _closure(first: Path) -> list[Path]:
+    todo, seen = [first], set()
     while todo:
         path = todo.pop()
         if path not in seen:

@@ -82,8 +82,11 @@ def read_shape(value: Any, n_beads: int, dim: int) -> Any:
         x = np.array(value, dtype=float)
     except (TypeError, ValueError):
         raise refused("shape", _shown(value), allowed) from None
-    if x.shape not in ((n_beads, 2), (n_beads, 3)) or not np.isfinite(x).all():
+    if x.shape not in ((n_beads, 2), (n_beads, 3)):
         raise refused("shape", _shown(value), allowed)
+    if not np.isfinite(x).all():
+        row = int(np.flatnonzero(~np.isfinite(x).all(axis=1))[0])
+        raise refused("shape", f"row {row} of {x[row].tolist()}", allowed)
     if dim == 2 and x[:, 2:].any():
         raise InputError("shape: leaves the plane z = 0 of a planar scene; give space: volume")
     padded = np.zeros((n_beads, 3))

@@ -77,6 +77,11 @@ class Study:
         return as_options(self._fiber | how)
 
     @property
+    def states_options(self) -> str:
+        """Options of ``sedfiber trace_states``."""
+        return as_options(self._fiber | self.config["states"])
+
+    @property
     def effects_options(self) -> str:
         """Options of ``sedfiber measure_effects``."""
         return as_options(self._fiber | self.config["effects"])

@@ -4,15 +4,13 @@ import argparse
 import json
 from pathlib import Path
 
-import numpy as np
-
 from sedfiber.atomic_file import require_writable, write_text
+from sedfiber.differences import largest_distance
 from sedfiber.errors import NumericalError
 from sedfiber.numerics import Numerics
 from sedfiber.physics.integrators import INTEGRATORS
 from sedfiber.scene import Scene
 from sedfiber.simulation import simulate
-from sedfiber.trajectory import Trajectory
 from sedfiber.trajectory_file import read_trajectory
 from sedfiber.validation import positive_number
 
@@ -34,7 +32,7 @@ def run(args: argparse.Namespace) -> None:
     values = {key: value for key, value in first.metadata["scene"].items() if key != "start_angle"}
     numerics = Numerics(args.integrator, tolerance, tolerance, first.metadata["numerics"]["interval"])
     second = simulate(Scene.from_dict(values), numerics, t_end=float(first.t[-1]))
-    difference = largest_difference(first, second)
+    difference = largest_distance(first.positions, second.positions, 2.0 * first.n_beads)
     if not difference <= bound:
         raise NumericalError(f"runs differ by {difference:.3g} L, more than {bound:g} L; try a smaller rtol")
     facts = {
@@ -46,10 +44,3 @@ def run(args: argparse.Namespace) -> None:
         "bound": bound,
     }
     write_text(args.output, json.dumps(facts, sort_keys=True) + "\n")
-
-
-def largest_difference(first: Trajectory, second: Trajectory) -> float:
-    """Largest root-mean-square bead distance at any sample, over L; the fall included."""
-    offset = first.positions - second.positions
-    length = 2.0 * first.n_beads
-    return float(np.sqrt((offset**2).sum(axis=2).mean(axis=1)).max() / length)

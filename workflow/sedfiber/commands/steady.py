@@ -1,9 +1,10 @@
-"""``sedfiber steady``: terminal shape and speed at one elasto-gravitational number."""
+"""``sedfiber steady``: steady shape, speed and growth rates at one elasto-gravitational number."""
 
 import argparse
 import json
 
-from sedfiber.physics.steady import SteadyState, steady_state
+from sedfiber.physics.spectrum import spectrum
+from sedfiber.physics.steady import BRANCHES, SteadyState, terminal_state
 from sedfiber.scene import HYDRODYNAMICS, Scene
 
 
@@ -16,13 +17,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default=Scene.hydrodynamics,
         help=f"{' or '.join(HYDRODYNAMICS)} ({Scene.hydrodynamics})",
     )
+    parser.add_argument("--branch", default="U", help=f"{' or '.join(BRANCHES)}, which is unstable (U)")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(args: argparse.Namespace) -> None:
-    """Solve and print: lengths in a, speeds in U_s."""
+    """Solve and print: lengths in a, speeds in U_s, growth rates in U_s/a."""
     scene = Scene(args.B, 0.0, args.n_beads, hydrodynamics=args.hydrodynamics)
-    summary = _summary(steady_state(scene.B, scene.n_beads, scene.hydrodynamics), scene)
+    summary = _summary(terminal_state(scene, args.branch), scene)
     if args.json:
         print(json.dumps(summary))
         return
@@ -31,13 +33,19 @@ def run(args: argparse.Namespace) -> None:
 
 
 def _summary(state: SteadyState, scene: Scene) -> dict:
+    modes = spectrum(scene, state.positions)
     return {
         "B": state.B,
         "B_force_consistent": scene.force_consistent_B,
         "modulus": scene.modulus,
         "n_beads": scene.n_beads,
+        "branch": state.branch,
         "velocity": state.speed,
         "height": state.height,
         "end_to_end": state.end_to_end,
         "residual": state.residual,
+        "in_plane_rate": modes.in_plane_rate,
+        "out_of_plane_rate": modes.out_of_plane_rate,
+        "stable_in_plane": modes.stable_in_plane,
+        "stable_in_volume": modes.stable_in_volume,
     }

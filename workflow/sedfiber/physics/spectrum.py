@@ -14,7 +14,7 @@ from sedfiber._typing import Array, Matrix, Positions
 from sedfiber.physics.assembly import assemble
 from sedfiber.physics.mirror import whole
 from sedfiber.physics.system import System
-from sedfiber.physics.transverse import transverse_matrix, turn_about_gravity
+from sedfiber.physics.transverse import leading_rate, transverse_matrix, turn_about_gravity
 from sedfiber.scene import Scene
 
 
@@ -43,10 +43,15 @@ class Mode:
 
 @dataclass(frozen=True)
 class Spectrum:
-    """All modes but the neutral ones of a planar steady state, the fastest growing first."""
+    """All modes but the neutral ones of a planar steady state, the fastest growing first.
+
+    ``round_off`` is the size in U_s/a below which a rate means nothing: no disturbance is taken to
+    grow because of it.
+    """
 
     in_plane: list[Mode]
     out_of_plane: list[Mode]
+    round_off: float
 
     @property
     def in_plane_rate(self) -> float:
@@ -61,12 +66,12 @@ class Spectrum:
     @property
     def stable_in_plane(self) -> bool:
         """Whether every disturbance within the plane decays."""
-        return self.in_plane_rate < 0.0
+        return self.in_plane_rate < self.round_off
 
     @property
     def stable_in_volume(self) -> bool:
         """Whether every disturbance but a turn about gravity decays."""
-        return self.stable_in_plane and self.out_of_plane_rate < 0.0
+        return self.stable_in_plane and self.out_of_plane_rate < self.round_off
 
 
 def spectrum(scene: Scene, positions: Positions) -> Spectrum:
@@ -74,7 +79,28 @@ def spectrum(scene: Scene, positions: Positions) -> Spectrum:
     spatial = assemble(replace(scene, space="volume"))
     x = np.ascontiguousarray(positions)
     across = _modes(transverse_matrix(spatial, x), [2], spatial, turn_about_gravity(x))
-    return Spectrum(_modes(_in_plane_matrix(spatial, x), [0, 1], spatial), across)
+    return Spectrum(_modes(_in_plane_matrix(spatial, x), [0, 1], spatial), across, round_off(scene))
+
+
+def round_off(scene: Scene) -> float:
+    """What the rates of a scene carry of it, in U_s/a: the stiffest rate is of the size of the modulus."""
+    return float(np.finfo(float).eps * scene.modulus)
+
+
+def leaving_rate(scene: Scene, positions: Positions, symmetric: bool, flat: bool) -> float:
+    """Largest growth rate in U_s/a among the disturbances that a run can have, without the modes themselves.
+
+    A run that is exactly ``symmetric`` stays so, and one that is ``flat`` stays in its plane.
+    """
+    spatial = assemble(replace(scene, space="volume"))
+    x = np.ascontiguousarray(positions)
+    matrix = _in_plane_matrix(spatial, x)
+    if symmetric:
+        half = (len(x) // 2) * 2  # unknowns of the beads before the centre bead, whose images are those after it
+        images = matrix[half:, :half].reshape(half, -1, 2)[:, ::-1] * np.array([-1.0, 1.0])
+        matrix = matrix[half:, half:] + images.reshape(half, half)
+    fastest = float(np.linalg.eigvals(matrix).real.max())
+    return fastest if flat else max(fastest, leading_rate(transverse_matrix(spatial, x), x))
 
 
 def _in_plane_matrix(spatial: System, x: Positions) -> Matrix:

@@ -22,8 +22,7 @@ BRANCHES = ("U", "W")
 NEARLY_STRAIGHT = 10.0  # ℬ from which the straight fiber is a good first guess
 _FALLS = (1.0, 2.0, 4.0, 8.0)  # times ℬ = 10000, where symmetric falls are tried for a W
 _ROUGHLY_STEADY = 1e-6  # U_s: relative bead speeds from which Newton takes over
-_LONGEST_FALL = 20_000  # a/U_s
-_NEAR = 1e-3  # arclength from which Newton finds the state at a given ℬ
+_LONGEST_FALL = 100.0  # a/U_s a bead
 _APART = 1e-2  # of L: shapes that differ by more are two states
 
 
@@ -73,12 +72,17 @@ def terminal_state(scene: Scene, branch: str = "U") -> SteadyState:
     does not reach its ℬ.
     """
     one_of("branch", branch, BRANCHES)
-    if not scene.has_terminal_shape:
-        raise InputError("steady: this scene has no terminal shape; it needs gravity, a fiber of 3 beads or more, RPY")
+    require_terminal_shape(scene)
     curve = SteadyCurve(scene)
     seed = straight_point(scene, curve) if branch == "U" else w_point(scene, curve)
     state = state_of(_reach(curve, seed, scene.B, branch), scene, branch)
     return replace(state, B=scene.B)  # not what its logarithm makes of it
+
+
+def require_terminal_shape(scene: Scene) -> None:
+    """Raises InputError for a scene without one."""
+    if not scene.has_terminal_shape:
+        raise InputError("steady: this scene has no terminal shape; it needs gravity, a fiber of 3 beads or more, RPY")
 
 
 def state_of(point: CurvePoint, scene: Scene, branch: str) -> SteadyState:
@@ -132,7 +136,7 @@ def _symmetric_fall(scene: Scene) -> Positions | None:
         for k, y in enumerate(march.states(system.to_state(scene.start()), interval)):
             if k and np.abs(system.relative_velocities(y)).max() < _ROUGHLY_STEADY:
                 return system.to_shapes(y)[:, :2]
-            if k * interval > _LONGEST_FALL:
+            if k * interval > _LONGEST_FALL * scene.n_beads:
                 break
     except NumericalError:  # few beads collapse where plain RPY is not positive definite
         pass
@@ -165,8 +169,4 @@ def _reach(curve: SteadyCurve, seed: CurvePoint, B: float, branch: str) -> Curve
         if side * (point.unknowns[-1] - goal) >= 0.0:
             break
         last = point
-    near = curve.crossing(last, point, lambda p: p.unknowns[-1] - goal, _NEAR)
-    found = curve.nearest(B, near.positions)
-    if found is None:
-        raise NumericalError(f"steady: the branch was lost near B={last.B:.6g}")
-    return found
+    return curve.at(B, last, point)

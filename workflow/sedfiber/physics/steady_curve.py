@@ -24,10 +24,12 @@ TOLERANCE = 1e-10  # on the largest relative bead speed, in U_s
 _MAX_NEWTON = 12
 _FIRST_STEP, _LONGEST_STEP, _LAST_STEP = 0.1, 0.25, 1e-6
 _LARGEST_CORRECTION = 0.02  # of L, by which Newton may move a bead from the prediction
+_LEAST_COSINE = 0.8  # of the angle between tangents one step apart; past a right angle the way back looks like ahead
 _LAST_CORRECTION = 1e-5  # of the height, by which the last Newton step may still move a bead
 _LAST_MOVE = 1e-6  # a, and of λ: the last Newton step on the curve
 _POLISHED = 3  # converged iterates to choose from
 _ROOT = 1e-13  # of the arclength, at which a crossing is called found
+_NEAR = 1e-6  # arclength from which Newton finds the state at a given ℬ, beside a fold too
 
 
 @dataclass(frozen=True)
@@ -106,6 +108,17 @@ class SteadyCurve:
         root = brentq(lambda s: measure(self._must(point, s)), 0.0, step, xtol=accuracy)
         return self._must(point, root)
 
+    def at(self, B: float, point: CurvePoint, ahead: CurvePoint) -> CurvePoint:
+        """The point at ``B`` between two points of the curve, solved to round-off."""
+        goal = float(np.log(B))
+        near = min((point, ahead), key=lambda end: abs(end.unknowns[-1] - goal))
+        if abs(near.unknowns[-1] - goal) > _ROOT:
+            near = self.crossing(point, ahead, lambda p: p.unknowns[-1] - goal, _NEAR)
+        found = self.nearest(B, near.positions)
+        if found is None:
+            raise NumericalError(f"steady: the branch was lost near B={B:.6g}")
+        return found
+
     def fold(self, point: CurvePoint, ahead: CurvePoint) -> CurvePoint:
         """The fold in ℬ between two points whose tangents point to opposite sides."""
         return self.crossing(point, ahead, lambda p: float(p.tangent[-1]))
@@ -117,9 +130,10 @@ class SteadyCurve:
         return ahead
 
     def _strayed(self, point: CurvePoint, step: float, ahead: CurvePoint) -> bool:
-        """Whether Newton went so far from the prediction that it may have found another branch."""
+        """Whether Newton went so far from the prediction, or the curve turned so much, that it may lead elsewhere."""
         correction = (ahead.unknowns - point.unknowns - step * point.tangent)[:-1]
-        return bool(np.abs(correction).max() > _LARGEST_CORRECTION * self._scene.length)
+        turned = (self._metric * point.tangent) @ ahead.tangent < _LEAST_COSINE
+        return bool(turned or np.abs(correction).max() > _LARGEST_CORRECTION * self._scene.length)
 
     def _tangent(self, matrix: Matrix, border: Array) -> Array:
         """The unit tangent with a positive product with ``border``."""

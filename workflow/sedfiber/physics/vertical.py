@@ -11,6 +11,7 @@ import numpy as np
 from sedfiber._typing import Array, Positions
 from sedfiber.errors import NumericalError
 from sedfiber.physics.assembly import assemble
+from sedfiber.physics.steady import SteadyState
 from sedfiber.physics.steady_curve import TOLERANCE
 from sedfiber.physics.transverse import transverse_matrix
 from sedfiber.scene import Scene
@@ -38,6 +39,15 @@ def vertical_shape(scene: Scene) -> Positions:
         if np.abs(u - u[centre]).max() < TOLERANCE + noise and np.abs(step).max() < _LAST_MOVE:
             return x
     raise NumericalError(f"steady: no vertical fall found at B={scene.B:g}; try a smaller B")
+
+
+def vertical_state(scene: Scene) -> SteadyState:
+    """The straight vertical fiber in steady fall, with its velocity and residual; raises as ``vertical_shape``."""
+    x = vertical_shape(scene)
+    system = assemble(replace(scene, space="volume"))
+    velocity = system.velocity(x)
+    fall = velocity[system.centre]
+    return SteadyState(scene.B, x, fall, float(np.abs(velocity - fall).max()), "vertical")
 
 
 def vertical_rates(scene: Scene) -> Array:

@@ -8,9 +8,10 @@ from scipy.integrate import BDF, LSODA, OdeSolver, Radau
 from sedfiber._typing import State
 from sedfiber.physics.integrators.base import March
 
+_FAILURES = {"Unexpected istate in LSODA.": "Newton's iterations do not converge, however short the step,"}
 _MAX_STEPS_PER_SAMPLE = 20_000
-# of the sampling interval; left to itself, LSODA jumps to the end where nothing moves at first
-_FIRST_STEP = 1e-4
+# of the sampling interval, and in a/U_s; left to itself, LSODA jumps to the end where nothing moves at first
+_FIRST_STEP, _LONGEST_FIRST = 1e-4, 5e-5
 
 
 class _SciPyMarch(March):
@@ -24,7 +25,7 @@ class _SciPyMarch(March):
             0.0,
             start,
             np.inf,
-            first_step=_FIRST_STEP * interval,
+            first_step=min(_FIRST_STEP * interval, _LONGEST_FIRST),
             rtol=self.tolerances.rtol,
             atol=self.tolerances.atol,
             jac=self.system.jacobian,
@@ -51,7 +52,7 @@ class _SciPyMarch(March):
         self.counters.factorisations = int(solver.nlu)
         self.require_finite(solver.t, solver.y)
         if solver.status != "running" or solver.t <= before:
-            why = (message or "the step size fell to zero").rstrip(".")
+            why = _FAILURES.get(message) or "the step size fell to zero"
             raise self.stuck(solver.t, solver.y, why, "try another --rtol or --integrator")
 
 

@@ -1,0 +1,76 @@
+# Hard cases: one job each, so that a change reruns what depends on it; a case that fails is a row
+# of the table that says so, not a failed job.
+
+
+rule measure_hard_case:
+    input:
+        hard_case_sources,
+        model=hard_case_model,
+    output:
+        "results/hard_cases/{case}.csv",
+    log:
+        "results/logs/measure_hard_case/{case}.log",
+    benchmark:
+        "results/benchmarks/measure_hard_case/{case}.tsv"
+    conda:
+        "../../envs/learning.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=10,
+    params:
+        model=lambda wildcards, input: ("--model results/models/forecast" if input.model else ""),
+    message:
+        "hard case {wildcards.case}"
+    shell:
+        "sedfiber measure_hard_case {wildcards.case} {params.model} -o {output} > {log} 2>&1"
+
+
+rule tabulate_hard_cases:
+    input:
+        sources("tabulate_hard_cases"),
+        cases=expand("results/hard_cases/{case}.csv", case=HARD_CASES),
+    output:
+        "results/tables/hard_cases.csv",
+    log:
+        "results/logs/tabulate_hard_cases.log",
+    benchmark:
+        "results/benchmarks/tabulate_hard_cases.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    message:
+        "tabulate all hard cases"
+    shell:
+        "sedfiber tabulate_hard_cases {input.cases} -o {output} > {log} 2>&1"
+
+
+rule plot_hard_cases:
+    input:
+        sources("plot_hard_cases"),
+        table="results/tables/hard_cases.csv",
+    output:
+        svg="results/figures/hard_cases.svg",
+        png="results/figures/hard_cases.png",
+    log:
+        "results/logs/plot_hard_cases.log",
+    benchmark:
+        "results/benchmarks/plot_hard_cases.tsv"
+    conda:
+        "../../envs/figures.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "draw how far every hard case stays from its bounds"
+    shell:
+        "sedfiber plot_hard_cases {input.table} --svg {output.svg} --png {output.png} > {log} 2>&1"
+
+
+rule hard_cases:
+    input:
+        rules.plot_hard_cases.output,

@@ -1,0 +1,56 @@
+# Where the model's own steady states are stable: the branches against ℬ, their rates, the thresholds.
+
+
+rule trace_states:
+    input:
+        sources("trace_states"),
+    output:
+        table="results/tables/states.csv",
+        thresholds="results/tables/state_thresholds.csv",
+    log:
+        "results/logs/trace_states.log",
+    benchmark:
+        "results/benchmarks/trace_states.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        options=STUDY.states_options,
+    message:
+        "trace the steady states and find where they are stable"
+    shell:
+        "sedfiber trace_states {params.options}"
+        " -o {output.table} --thresholds {output.thresholds} > {log} 2>&1"
+
+
+rule plot_states:
+    input:
+        sources("plot_states"),
+        table="results/tables/states.csv",
+        thresholds="results/tables/state_thresholds.csv",
+    output:
+        svg="results/figures/states.svg",
+        png="results/figures/states.png",
+    log:
+        "results/logs/plot_states.log",
+    benchmark:
+        "results/benchmarks/plot_states.tsv"
+    conda:
+        "../../envs/figures.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "draw the steady states and where they are stable"
+    shell:
+        "sedfiber plot_states {input.table} --thresholds {input.thresholds}"
+        " --svg {output.svg} --png {output.png} > {log} 2>&1"
+
+
+rule states:
+    input:
+        rules.plot_states.output,

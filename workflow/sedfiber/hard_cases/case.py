@@ -1,0 +1,53 @@
+"""What a hard case is: why it is hard, what counts as right, against what, and where it is measured."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+
+FOLDER = "sedfiber.hard_cases"
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """One number that a case is judged by: right when ``value <= bound`` (a NaN is wrong).
+
+    ``what`` names the number with its unit; ``note`` says what a reader should know, and why it
+    fails where it fails.
+    """
+
+    what: str
+    value: float
+    bound: float
+    note: str = ""
+
+    @property
+    def right(self) -> bool:
+        """Whether the number keeps its bound."""
+        return bool(self.value <= self.bound)
+
+
+@dataclass(frozen=True)
+class HardCase:
+    """One entry of the list that tests and the rule ``hard_cases`` both run.
+
+    ``module`` is the module of this folder that measures it, in the function of the case's own
+    name; it is imported when the case is run, so that the list itself costs nothing.
+    """
+
+    name: str
+    module: str
+    why: str
+    right: str
+    reference: str
+    needs_model: bool = False
+
+    def measure(self, model: Path | None = None) -> list[Measurement]:
+        """Run the case; ``model`` is the folder of a trained forecast model, where the case needs one."""
+        function: Callable[..., Iterable[Measurement]] = getattr(import_module(f"{FOLDER}.{self.module}"), self.name)
+        return list(function(model) if self.needs_model else function())
+
+
+def refusal(what: str, refused: bool, note: str = "") -> Measurement:
+    """Something that must be refused: 0 when it was, 1 when it went through."""
+    return Measurement(what, 0.0 if refused else 1.0, 0.0, note)

@@ -1,0 +1,83 @@
+"""Stiff and floppy fibers against another method at tighter tolerances."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+from math import pi
+
+from sedfiber.angles import angle_of
+from sedfiber.differences import largest_distance
+from sedfiber.errors import NumericalError
+from sedfiber.hard_cases.case import Measurement, refusal
+from sedfiber.numerics import Numerics
+from sedfiber.physics.checks import ENERGY_BALANCE
+from sedfiber.scene import Scene
+from sedfiber.simulation import simulate
+from sedfiber.trajectory import Trajectory
+
+TIGHT = Numerics("Radau", rtol=1e-10, atol=1e-10)
+AGREE = 1e-4  # of L
+THREE_ANGLES = (4, 12, 20)  # k in θ₀ = k π/48
+WHILE = 600.0  # a/U_s: fibers too floppy for a terminal shape never settle
+
+
+def stiffest() -> Iterable[Measurement]:
+    """ℬ = 100 and the steepest start of the study, then 10 and 1 with ever slower rotation."""
+    for B, interval, share in ((100.0, 0.5, 1.0), (10.0, 5.0, 1.0), (1.0, 5.0, 0.1)):
+        numerics = Numerics(interval=interval)
+        run = simulate(Scene(B, angle_of(22)), numerics)
+        yield from _against(run, replace(TIGHT, interval=interval), f"B={B:g}, k=22", share)
+
+
+def floppiest_of_the_study() -> Iterable[Measurement]:
+    """ℬ = 10000 at all 23 angles of the study's grid."""
+    worst, imbalance = 0.0, 0.0
+    for k in range(23):
+        found = list(_against(simulate(Scene(10000.0, angle_of(k))), TIGHT, ""))
+        worst, imbalance = max(worst, found[0].value), max(imbalance, found[1].value)
+    yield Measurement("largest distance from Radau at 1e-10 over all angles, L", worst, AGREE)
+    yield Measurement("largest energy imbalance over all angles", imbalance, ENERGY_BALANCE)
+
+
+def beyond_the_U() -> Iterable[Measurement]:
+    """ℬ = 1e5 and 1e6: no U exists; with contact, without it, and with the mobility that does not stand it."""
+    for B in (1e5, 1e6):
+        for k in THREE_ANGLES:
+            scene = Scene(B, angle_of(k), hydrodynamics="RPY-overlap", contact={})
+            yield from _against(simulate(scene, t_end=WHILE), TIGHT, f"B={B:g}, k={k}, contact and overlap form")
+    loose = simulate(Scene(1e6, pi / 4, hydrodynamics="RPY-overlap"), t_end=WHILE)
+    missed = any(verdict["effect"] == "contact" and verdict["matters"] for verdict in loose.metadata["audit"])
+    yield Measurement("B=1e6 without contact: the audit says that it matters (0: yes)", float(not missed), 0.0)
+    yield refusal("B=1e6 with plain RPY: refused, naming the pair", *_collapse(Scene(1e6, pi / 4)))
+    yield refusal("B=1e5 without an end: refused, naming the fold", *_no_terminal_shape(Scene(1e5, pi / 4)))
+
+
+def _against(run: Trajectory, numerics: Numerics, words: str, share: float = 1.0) -> Iterable[Measurement]:
+    """Distance from the same run by other numerics over a share of its time, and its own energy balance."""
+    samples = round(share * (len(run.t) - 1)) + 1
+    scene = scene_of(run)
+    second = simulate(scene, numerics, t_end=float(run.t[samples - 1]))
+    apart = largest_distance(run.positions[:samples], second.positions, scene.length)
+    part = "" if share == 1.0 else f" over the first {run.t[samples - 1]:g} a/U_s"
+    yield Measurement(f"{words}: distance from {numerics.integrator} at {numerics.rtol:g}{part}, L", apart, AGREE)
+    yield Measurement(f"{words}: energy imbalance", run.metadata["checks"]["energy_imbalance"], ENERGY_BALANCE)
+
+
+def scene_of(run: Trajectory) -> Scene:
+    """The scene that a run's metadata record."""
+    return Scene.from_dict({key: value for key, value in run.metadata["scene"].items() if key != "start_angle"})
+
+
+def _collapse(scene: Scene) -> tuple[bool, str]:
+    try:
+        simulate(scene, t_end=WHILE)
+    except NumericalError as error:
+        return "not positive definite" in str(error) and "beads" in str(error), str(error)
+    return False, "it ran through"
+
+
+def _no_terminal_shape(scene: Scene) -> tuple[bool, str]:
+    try:
+        simulate(scene)
+    except NumericalError as error:
+        return "ends in a fold" in str(error) and "--t-end" in str(error), str(error)
+    return False, "it settled"
