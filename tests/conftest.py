@@ -1,12 +1,39 @@
-"""Settings that every test shares; set before NumPy is imported."""
+"""Settings and models that every test shares; threads are set before NumPy is imported."""
 
 import os
 
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_variable, "1")
 
+import pytest  # noqa: E402
 from hypothesis import settings  # noqa: E402
 
 # The same examples on every machine and in every run; a slow machine fails no test.
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=25, database=None)
 settings.load_profile("repeatable")
+
+
+@pytest.fixture(scope="session")
+def trained_model(tmp_path_factory):
+    """Folder of a forecast model of 7 beads, ℬ from 100 to 400, trained on simulations in under 10 s."""
+    import torch  # the tests of the physics do without
+
+    from sedfiber.hard_cases.training_cases import simulated
+    from sedfiber.learning.forecast import ForecastModel
+    from sedfiber.learning.model_files import save_forecast_model
+    from sedfiber.learning.settings import AutoencoderSettings, NodeSettings
+    from sedfiber.learning.train_autoencoder import train_autoencoder
+    from sedfiber.learning.train_node import train_node
+
+    torch.set_num_threads(1)
+    training = simulated(7, (100.0, 200.0, 400.0), (0, 5, 10, 15, 20))
+    sizes = {"samples_per_trajectory": 32}
+    encoding = AutoencoderSettings((16, 16), modes_per_parity=4, batch_size=128, iterations=700, **sizes)
+    autoencoder = train_autoencoder(training, "decoder", 2, 0, encoding)
+    matching = {"matching_iterations": 800, "matching_batch_size": 128}
+    rollouts = {"rollout_lengths": (8,), "rollout_iterations": (80,), "rollout_batch_steps": 800}
+    settings = NodeSettings((16, 16), **sizes, **matching, **rollouts)
+    node = train_node(training, autoencoder, 0, settings)
+    folder = tmp_path_factory.mktemp("model")
+    save_forecast_model(ForecastModel(autoencoder, node, settings.rtol, settings.atol), folder, {})
+    return folder

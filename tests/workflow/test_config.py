@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 import yaml
 
-from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
 from sedfiber.hard_cases.listing import CASES
+from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
 from sedfiber.source_files import PACKAGE, command_sources, module_sources
 
 REPOSITORY = Path(__file__).parents[2]

@@ -1,22 +1,33 @@
 """A trained model as a user meets it: ℬ, θ₀ and times in, bead positions out.
 
-The terminal shape and velocity at any ℬ come from the steady solver.
+The terminal shape and velocity at any ℬ come from the steady solver. A fiber is the same with
+its beads counted from the other end, so that a start beyond ±π/2 is forecast in reversed order.
 """
 
+import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from sedfiber._typing import History, Times
-from sedfiber.learning.forecast import ForecastModel
+from sedfiber._typing import Array, History, Times
+from sedfiber.errors import InputError
+from sedfiber.learning.forecast import ForecastModel, Start
 from sedfiber.learning.model_files import load_forecast_model
-from sedfiber.physics.settling import distance_to_terminal, settling_time
+from sedfiber.physics.settling import SETTLED, distance_to_terminal, settling_time
 from sedfiber.physics.steady import SteadyState, steady_state
 from sedfiber.scene import Scene
 from sedfiber.trajectory import Trajectory
 
 _FIRST_LOOK = 256  # samples forecast before the first look at whether the fiber has settled
 _MOST_SAMPLES = 2**17
+_FLAT = 1e-6  # a: how far from its plane a start may be, for a sample of another forecast is flat up to rounding
+_REST_TIME, _REST_CHANGE = 1000.0, 1e-6  # a/U_s, L: a distance that changes less in that time stands still
+
+# Root-mean-square bead distance over L between a start and what the model makes of it, above
+# which the start counts as far from any seen: 6 times the worst of all training samples of the
+# study's model (8.7e-4), twice the worst of its test samples (2.8e-3).
+FAR = 5e-3
 
 
 class Forecaster:
@@ -26,53 +37,97 @@ class Forecaster:
         self.model = model
         self.hydrodynamics = hydrodynamics
 
-    def forecast(self, B: float, theta0: float, t: Times) -> History:
-        """Positions (T, N, 3) at ascending times ``t`` (T,) from a straight start at the origin.
+    def forecast(self, B: float, theta0: float, t: Times, shape: Any = None) -> History:
+        """Positions (T, N, 3) at ascending times ``t`` (T,), the centre bead at the origin at time 0.
 
-        Raises InputError for values that are not allowed, NumericalError when the
-        integration fails.
+        The start is straight, or a ``shape`` as a Scene takes it: planar, turned by ``theta0``.
+        `warnings` tells whether such a start is like those of the training. Raises InputError
+        for values that are not allowed, NumericalError when the integration fails.
         """
-        scene = self._scene(B, theta0)
-        return self._positions(scene, self._steady(scene), np.asarray(t, dtype=float))
+        scene = self._scene(B, theta0, shape)
+        return self._positions(scene, self._start(scene), np.asarray(t, dtype=float))
 
-    def settle(self, B: float, theta0: float, interval: float = 0.5, t_end: float | None = None) -> Trajectory:
-        """Samples every ``interval`` until the forecast has settled, or until ``t_end``."""
-        scene = self._scene(B, theta0)
-        steady = self._steady(scene)
+    def settle(
+        self, B: float, theta0: float, interval: float = 0.5, t_end: float | None = None, shape: Any = None
+    ) -> Trajectory:
+        """Samples every ``interval`` until the forecast has settled, or until ``t_end``.
+
+        One that settles elsewhere, or not at all, has ``settling_time`` None and says so in
+        ``metadata["model"]["warnings"]``, where `warnings` stand too. Raises as `forecast` does.
+        """
+        scene = self._scene(B, theta0, shape)
+        start = self._start(scene)
         count = _FIRST_LOOK if t_end is None else int(np.floor(t_end / interval * (1 + 1e-12))) + 1
         while True:
             t = interval * np.arange(count)
-            positions = self._positions(scene, steady, t)
+            positions = self._positions(scene, start, t)
             shapes = positions - positions[:, scene.n_beads // 2, None]
-            settled = settling_time(t, distance_to_terminal(shapes, steady.positions, scene.length))
-            if t_end is not None or settled is not None or count >= _MOST_SAMPLES:
+            distance = distance_to_terminal(shapes, start.terminal, scene.length)
+            settled = settling_time(t, distance)
+            if t_end is not None or settled is not None or _stands_still(t, distance) or count >= _MOST_SAMPLES:
                 break
             count *= 2
         keep = len(t) if t_end is not None or settled is None else int(np.searchsorted(t, settled)) + 1
-        return Trajectory(t[:keep], positions[:keep], self._metadata(scene, interval, t_end, settled))
+        facts = self._metadata(scene, start) | {"numerics": {"interval": interval, "t_end": t_end}}
+        facts["model"]["warnings"] += _doubts_about_the_end(t, distance, settled, t_end)
+        return Trajectory(t[:keep], positions[:keep], facts | {"settling_time": settled})
+
+    def warnings(self, B: float, theta0: float, shape: Any = None) -> list[str]:
+        """Why a forecast of this start is not to be relied on; empty within the training range."""
+        scene = self._scene(B, theta0, shape)
+        return self._doubts_about_the_start(scene, self._start(scene))
+
+    def start(self, B: float, theta0: float, shape: Any = None) -> Start:
+        """What the model starts from, for `ForecastModel.forecast_many`: the first bead is the left end."""
+        return self._start(self._scene(B, theta0, shape))
 
     def covers(self, B: float, theta0: float) -> bool:
-        """Whether (ℬ, θ₀) lies within the range of the training data."""
-        return self.model.scales.covers(B, theta0)
+        """Whether a straight start at (ℬ, θ₀), its beads counted from either end, is within the training range."""
+        return self.model.scales.covers(B, math.remainder(theta0, math.pi))
 
     def range_words(self) -> str:
         """The training range in words, for a warning."""
         scales = self.model.scales
         return f"B from {scales.B_min:g} to {scales.B_max:g} and |theta0| up to {scales.theta0_max:.4g}"
 
-    def _scene(self, B: float, theta0: float) -> Scene:
-        return Scene(B, theta0, self.model.scales.n_beads, hydrodynamics=self.hydrodynamics)
+    def _scene(self, B: float, theta0: float, shape: Any) -> Scene:
+        facts = {"n_beads": self.model.scales.n_beads, "hydrodynamics": self.hydrodynamics}
+        given = Scene(B, theta0, space="volume", shape=shape, **facts)
+        if np.abs(given.start()[:, 2]).max() > _FLAT:
+            raise InputError("shape: leaves the plane z = 0, in which the model was trained; give z = 0 for every bead")
+        rows = given.shape if given.shape is None or given.shape == "rest" else np.array(given.shape)[:, :2]
+        return Scene(B, theta0, shape=rows, **facts)
 
-    def _steady(self, scene: Scene) -> SteadyState:
-        return steady_state(scene.B, scene.n_beads, scene.hydrodynamics)
+    def _start(self, scene: Scene) -> Start:
+        initial = np.zeros((scene.n_beads, 3))
+        initial[:, : scene.dim] = scene.start()
+        steady, nearest_B = self._steady(scene.B), self.model.scales.nearest_B(scene.B)
+        nearest = None if nearest_B == scene.B else (nearest_B, self._steady(nearest_B).positions)
+        forward = initial[:: _order(initial)]
+        return Start(scene.B, forward, steady.positions, steady.velocity, nearest)
 
-    def _positions(self, scene: Scene, steady: SteadyState, t: Times) -> History:
-        start = np.zeros((scene.n_beads, 3))
-        start[:, : scene.dim] = scene.start()
-        return self.model.forecast(scene.B, start, steady.positions, steady.velocity, t)
+    def _steady(self, B: float) -> SteadyState:
+        return steady_state(B, self.model.scales.n_beads, self.hydrodynamics)
 
-    def _metadata(self, scene: Scene, interval: float, t_end: float | None, settled: float | None) -> dict:
-        autoencoder = self.model.autoencoder
+    def _positions(self, scene: Scene, start: Start, t: Times) -> History:
+        """The forecast with its beads in the scene's order."""
+        return self.model.forecast_many([start], t)[0][:, :: _order(scene.start())]
+
+    def _doubts_about_the_start(self, scene: Scene, start: Start) -> list[str]:
+        words = []
+        straight = scene.shape is None
+        if not self.covers(scene.B, scene.start_angle if straight else 0.0):
+            values = f"B={scene.B:g}, theta0={scene.theta0:g}" if straight else f"B={scene.B:g}"
+            words.append(f"{values} is outside the training range ({self.range_words()})")
+        error = self.model.start_error(start)
+        if error > FAR:
+            words.append(
+                f"the start is far from any seen: {error:.2g} L from what the model makes of it (up to {FAR:g})"
+            )
+        return words
+
+    def _metadata(self, scene: Scene, start: Start) -> dict:
+        autoencoder, warnings = self.model.autoencoder, self._doubts_about_the_start(scene, start)
         return {
             "kind": "forecast",
             **scene.facts(),
@@ -80,13 +135,33 @@ class Forecaster:
                 "variant": autoencoder.variant,
                 "latent_dim": autoencoder.latent_dim,
                 "trained_for": self.range_words(),
-                "within_training_range": self.covers(scene.B, scene.start_angle),
+                "within_training_range": not warnings,
+                "warnings": warnings,
             },
-            "numerics": {"interval": interval, "t_end": t_end},
-            "settling_time": settled,
         }
 
 
 def load_model(folder: str | Path) -> Forecaster:
     """Load a forecast model, such as ``results/models/forecast``; raises InputError for anything else."""
     return Forecaster(load_forecast_model(folder))
+
+
+def _order(start: Array) -> int:
+    """1 for a start (N, 2 or 3) whose last bead is to the right of the first, as in the training; else -1."""
+    return -1 if start[-1, 0] < start[0, 0] else 1
+
+
+def _stands_still(t: Times, distance: Array) -> bool:
+    """Whether the distance (T,) has stopped changing."""
+    later = distance[t >= t[-1] - _REST_TIME]
+    return bool(t[-1] > 2 * _REST_TIME and np.ptp(later) < _REST_CHANGE)
+
+
+def _doubts_about_the_end(t: Times, distance: Array, settled: float | None, t_end: float | None) -> list[str]:
+    """What to say of a forecast that does not end at the terminal shape: one that was cut short may not."""
+    off = f"{distance[-1]:.2g} L from the terminal shape, {SETTLED:g} L at most is settled"
+    if settled is None and _stands_still(t, distance):
+        return [f"the forecast comes to rest elsewhere: {off}"]
+    if settled is None and t_end is None:
+        return [f"the forecast has not settled by t={t[-1]:g}: {off}"]
+    return []

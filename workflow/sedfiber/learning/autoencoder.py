@@ -112,10 +112,11 @@ class Autoencoder(nn.Module):
         return torch.cat([b, self.encoder(terminal, b)], dim=1)
 
     def context_of(self, B: float, terminal: Positions) -> Tensor:
-        """[b, h_term] (1, 1 + d) for one ℬ, terminal shape (N, 3) in ``a``; a float64 model's."""
-        b = torch.tensor([[float(self.scales.log_B(B))]], dtype=torch.float64)
+        """[b, h_term] (1, 1 + d) for one ℬ, terminal shape (N, 3) in ``a``; a model of one dtype throughout."""
+        shape = terminal.reshape(1, -1) / self.scales.half_length
+        b, shape = (torch.tensor(x, dtype=self.modes.dtype) for x in ([[float(self.scales.log_B(B))]], shape))
         with torch.no_grad():
-            return self.context(b, self.modal(torch.tensor(terminal.reshape(1, -1) / self.scales.half_length)))
+            return self.context(b, self.modal(shape))
 
     def encode(self, residual: Tensor, context: Tensor) -> Tensor:
         """h = E(X̌; ℬ): (S, 3N) gives (S, d)."""

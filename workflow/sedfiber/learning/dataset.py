@@ -15,6 +15,7 @@ from sedfiber._typing import Array, History, Positions, Times
 from sedfiber.errors import InputError
 
 AXES = ("x", "y", "z")
+MOVED = 1e-6  # a: the least that a settling fiber's centre bead moves in a sample interval
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,20 @@ class Dataset:
     def B_values(self) -> Array:
         """The distinct elasto-gravitational numbers, ascending, shape (K,)."""
         return np.unique([trajectory.B for trajectory in self])
+
+    @property
+    def names(self) -> list[str]:
+        """How messages call each trajectory."""
+        return [trajectory.name for trajectory in self]
+
+    def require_sound(self) -> None:
+        """Raise InputError, naming the trajectory, for one that nothing can be learned from."""
+        if not self.trajectories:
+            raise InputError("the data set is empty; give at least one trajectory")
+        for trajectory in self:
+            _require_finite(trajectory)
+            _require_samples(trajectory)
+            _require_motion(trajectory)
 
     def split(self, label: str) -> "Dataset":
         """The trajectories of one split (``train``, ``A`` or ``B``).
@@ -138,4 +153,26 @@ def _trajectory(group: pd.DataFrame, columns: list[str], terminal: dict) -> Traj
 def _require_finite(trajectory: Trajectory) -> None:
     arrays = (trajectory.t, trajectory.positions, trajectory.terminal, trajectory.terminal_velocity)
     if not all(np.isfinite(array).all() for array in arrays):
-        raise InputError(f"the trajectory with {trajectory.name} holds values that are not finite")
+        raise _unsound(trajectory, "holds values that are not finite")
+
+
+def _require_samples(trajectory: Trajectory) -> None:
+    """Rates are differences of samples: there must be two, and time must pass between them."""
+    t = trajectory.t
+    if len(t) < 2 or len(t) != len(trajectory.positions):
+        raise _unsound(trajectory, f"has {len(t)} times and {len(trajectory.positions)} samples, not 2 or more of both")
+    if t[0] != 0.0 or not (np.diff(t) > 0).all():
+        raise _unsound(trajectory, "has times that do not ascend from zero")
+
+
+def _require_motion(trajectory: Trajectory) -> None:
+    """The path's length and the distance travelled are divided by."""
+    centre = trajectory.positions[:, trajectory.positions.shape[1] // 2]
+    still = np.flatnonzero(np.linalg.norm(centre[1:] - centre[0], axis=1) < MOVED)
+    if still.size:
+        when = trajectory.t[1 + still[-1]]
+        raise _unsound(trajectory, f"does not settle: at t = {when:g} its centre bead is where it started")
+
+
+def _unsound(trajectory: Trajectory, what: str) -> InputError:
+    return InputError(f"the trajectory with {trajectory.name} {what}; simulate it again, or leave it out")

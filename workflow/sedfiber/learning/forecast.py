@@ -5,6 +5,11 @@
 
 integrated by torchdiffeq's dopri5 in float64. The terminal shape and the terminal velocity
 come from the steady solve at that ℬ.
+
+Outside the training range F, E and D are those of the nearest trained ℬ, ℬ*, about the terminal
+state of the true ℬ; below the range dh/dt is multiplied by ℬ/ℬ*, for a stiff fiber turns at a
+rate ∝ ℬ. h = 0 is then as stable as at ℬ*. Measured on the study's model: extrapolated
+networks end 0.04 to 0.4 L from the terminal shape at ℬ = 10, 50 and 60000; these do not.
 """
 
 import copy
@@ -29,12 +34,20 @@ class Start:
     """What a forecast starts from: ``initial`` positions (N, 3), and the steady state at ℬ.
 
     ``terminal`` (N, 3) is relative to the centre bead, ``terminal_velocity`` has shape (3,).
+    ``nearest`` is the nearest trained ℬ with its terminal shape, where ℬ is outside the
+    training range; without it the networks are asked at ℬ itself.
     """
 
     B: float
     initial: Positions
     terminal: Positions
     terminal_velocity: Array
+    nearest: tuple[float, Positions] | None = None
+
+    @property
+    def pace(self) -> float:
+        """Factor on dh/dt: ℬ/ℬ* below the training range, else 1."""
+        return 1.0 if self.nearest is None else min(1.0, self.B / self.nearest[0])
 
     @classmethod
     def of(cls, trajectory: Trajectory) -> "Start":
@@ -43,12 +56,23 @@ class Start:
 
 
 class ForecastModel:
-    """Autoencoder and neural ODE, for inference in float64."""
+    """Autoencoder and neural ODE, for inference in ``dtype``.
 
-    def __init__(self, autoencoder: Autoencoder, node: NeuralOde, rtol: float, atol: float) -> None:
-        self.autoencoder, self.node, self.rtol, self.atol = autoencoder, node, rtol, atol
-        self._encoder = copy.deepcopy(autoencoder).double().requires_grad_(False)
-        self._node = copy.deepcopy(node).double().requires_grad_(False)
+    dopri5 works at the tolerances ``rtol`` and ``atol`` (L/2), but never below 10 roundings of
+    ``dtype``: a smaller error of a step is not measurable.
+    """
+
+    def __init__(
+        self,
+        autoencoder: Autoencoder,
+        node: NeuralOde,
+        rtol: float,
+        atol: float,
+        dtype: torch.dtype = torch.float64,
+    ) -> None:
+        self.autoencoder, self.node, self.rtol, self.atol, self.dtype = autoencoder, node, rtol, atol, dtype
+        self._encoder = copy.deepcopy(autoencoder).to(dtype).requires_grad_(False)
+        self._node = copy.deepcopy(node).to(dtype).requires_grad_(False)
 
     @property
     def scales(self) -> Scales:
@@ -64,25 +88,42 @@ class ForecastModel:
     def forecast_many(self, starts: Sequence[Start], t: Times) -> Array:
         """Positions (S, T, N, 3) at times ``t`` (T,), ascending from ``t[0]`` ≥ 0, of S starts.
 
-        All starts share the step size of dopri5, so that a forecast depends on its
-        companions within the tolerances. The initial positions are those at time 0.
+        All starts share the step of dopri5, which is as small as the most demanding start
+        needs it: a forecast depends on its companions within the tolerances, and is never
+        less accurate than alone. The initial positions are those at time 0.
 
         Raises InputError for shapes or times that do not fit the model, NumericalError
         when the integration fails.
         """
         self._check(starts, t)
-        context = torch.cat([self._encoder.context_of(start.B, start.terminal) for start in starts])
-        h, drift = self._integrate(self._latent(starts, context), context, t)
+        context = self._context(starts)
+        h, drift = self._integrate(self._latent(starts, context), context, self._pace(starts), t)
         residual = self._encoder.decode(h.flatten(0, 1), context.expand(len(t), -1, -1).flatten(0, 1))
         residual = residual.unflatten(0, h.shape[:2]).transpose(0, 1).numpy()
         drift = nn.functional.pad(drift, (0, 3 - N_CENTRE)).transpose(0, 1).numpy()
         return np.stack([self._assemble(*parts, t) for parts in zip(starts, residual, drift, strict=True)])
 
+    def start_error(self, start: Start) -> float:
+        """How far the model's first shape, D(E(X̌(0))), is from the start: rms bead distance over L."""
+        self._check([start], np.zeros(1))
+        shape = self.scales.shape(self.scales.residual(start.initial, start.terminal), start.terminal)
+        first = self.forecast_many([start], np.zeros(1))[0, 0]
+        offset = first - first[self.scales.n_beads // 2] - shape
+        return float(np.sqrt((offset**2).sum(axis=1).mean()) / (2.0 * self.scales.half_length))
+
+    def _context(self, starts: Sequence[Start]) -> Tensor:
+        return torch.cat([self._encoder.context_of(*(one.nearest or (one.B, one.terminal))) for one in starts])
+
     def _latent(self, starts: Sequence[Start], context: Tensor) -> Tensor:
         residual = np.stack([self.scales.residual(start.initial, start.terminal) for start in starts])
-        return self._encoder.encode(torch.tensor(residual), context)
+        return self._encoder.encode(torch.tensor(residual, dtype=self.dtype), context)
 
-    def _integrate(self, h: Tensor, context: Tensor, t: Times) -> tuple[Tensor, Tensor]:
+    def _pace(self, starts: Sequence[Start]) -> Tensor:
+        """Factors on the rates of h and of the drift, (S, d + 2)."""
+        pace = torch.tensor([[start.pace] for start in starts], dtype=self.dtype)
+        return nn.functional.pad(pace.expand(-1, self._node.latent_dim), (0, N_CENTRE), value=1.0)
+
+    def _integrate(self, h: Tensor, context: Tensor, pace: Tensor, t: Times) -> tuple[Tensor, Tensor]:
         """h (T, S, d) and the drift c − c(0) − U_term t, (T, S, 2)."""
         d, rest = h.shape[1], self._node.rest(context)
         state = nn.functional.pad(h, (0, N_CENTRE))
@@ -90,14 +131,16 @@ class ForecastModel:
         times = torch.tensor(np.concatenate([np.zeros(skipped), t]))
         if len(times) == 1:
             return state[None, :, :d], state[None, :, d:]
+        rounding = 10 * torch.finfo(self.dtype).eps
         try:
             states = odeint(
-                lambda _, y: self._node(y[:, :d], context, rest),
+                lambda _, y: pace * self._node(y[:, :d], context, rest),
                 state,
                 times,
-                rtol=self.rtol,
-                atol=self.atol,
+                rtol=max(self.rtol, rounding),
+                atol=max(self.atol, rounding),
                 method="dopri5",
+                options={"norm": _worst_of_starts},
             )[skipped:]
         except AssertionError as error:
             raise NumericalError(f"the forecast's integration failed: {error}") from error
@@ -118,3 +161,8 @@ class ForecastModel:
                 raise InputError(f"the model was trained on {n_beads} beads, not on {len(start.initial)}")
         if len(t) == 0 or t[0] < 0 or not (np.diff(t) > 0).all():
             raise InputError("forecast times must ascend from zero or later")
+
+
+def _worst_of_starts(state: Tensor) -> Tensor:
+    """The largest root mean square of a start's row: a mean over rows would let calm ones hide a wild one."""
+    return state.square().mean(dim=1).sqrt().max()

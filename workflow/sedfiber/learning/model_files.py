@@ -11,13 +11,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+import torch
 from safetensors import SafetensorError
 from safetensors.torch import load as load_tensors
 from safetensors.torch import save as save_tensors
 from torch import Tensor
 
 from sedfiber.atomic_file import require_folder, write_bytes
-from sedfiber.errors import InputError
+from sedfiber.errors import InputError, NumericalError
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.forecast import ForecastModel
 from sedfiber.learning.neural_ode import NeuralOde
@@ -32,7 +33,7 @@ CARD = "card.json"
 def save_autoencoder(model: Autoencoder, folder: str | Path, notes: dict[str, Any]) -> None:
     """Write an autoencoder; ``notes`` (training facts) go into the card as they are.
 
-    Raises InputError when the folder cannot be written.
+    Raises InputError when the folder cannot be written, NumericalError when a weight is not finite.
     """
     card = {"kind": "autoencoder", "autoencoder": _autoencoder_card(model), "notes": notes}
     _write(folder, _prefixed("autoencoder", model), card)
@@ -48,7 +49,7 @@ def load_autoencoder(folder: str | Path) -> Autoencoder:
 def save_forecast_model(model: ForecastModel, folder: str | Path, notes: dict[str, Any]) -> None:
     """Write encoder, decoder, neural ODE and scales together; ``notes`` go into the card.
 
-    Raises InputError when the folder cannot be written.
+    Raises InputError when the folder cannot be written, NumericalError when a weight is not finite.
     """
     node = {"hidden": model.node.hidden, "seed": model.node.seed}
     card = {
@@ -110,12 +111,22 @@ def _under(prefix: str, tensors: dict[str, Tensor]) -> dict[str, Tensor]:
 
 
 def _write(folder: str | Path, tensors: dict[str, Tensor], card: dict[str, Any]) -> None:
+    _require_finite(tensors)
     weights = save_tensors(tensors)
     card = {**card, "sha256": hashlib.sha256(weights).hexdigest()}
     text = json.dumps(card, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
     require_folder(Path(folder))
     write_bytes(Path(folder) / WEIGHTS, weights)
     write_bytes(Path(folder) / CARD, text.encode())
+
+
+def _require_finite(tensors: dict[str, Tensor]) -> None:
+    for name, value in tensors.items():
+        if not torch.isfinite(value).all():
+            raise NumericalError(
+                f"the model's {name} is not finite, so it is not written; "
+                "train again with a smaller learning rate or another seed"
+            )
 
 
 def _read(folder: str | Path, kind: str) -> tuple[dict[str, Any], dict[str, Tensor]]:

@@ -61,6 +61,10 @@ class Scales:
         inside = self.B_min * (1 - slack) <= B <= self.B_max * (1 + slack)
         return bool(inside and abs(theta0) <= self.theta0_max + slack)
 
+    def nearest_B(self, B: float) -> float:
+        """The ℬ of the training range that is nearest to ``B``: ``B`` itself within it."""
+        return min(max(B, self.B_min), self.B_max)
+
 
 def residual_history(trajectory: Trajectory, scales: Scales) -> Array:
     """Residual shapes of one trajectory, shape (T, 3N), units L/2."""

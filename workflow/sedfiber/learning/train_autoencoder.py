@@ -15,7 +15,7 @@ from sedfiber.learning.pod import modal_basis
 from sedfiber.learning.sampling import path_even_indices
 from sedfiber.learning.scaling import Scales, residual_history
 from sedfiber.learning.settings import AutoencoderSettings
-from sedfiber.learning.training import Progress, ProgressLine, cosine_rate, descend, silent, soap
+from sedfiber.learning.training import Descent, Progress, ProgressLine, cosine_rate, silent, soap
 
 
 def train_autoencoder(
@@ -28,8 +28,10 @@ def train_autoencoder(
 ) -> Autoencoder:
     """Train one autoencoder on the training split; the same arguments give the same bytes.
 
-    Raises InputError for an unknown variant, NumericalError when the loss is not finite.
+    Raises InputError for an unknown variant and for a trajectory that cannot be learned from,
+    NumericalError when the training diverges; both name the trajectory.
     """
+    training.require_sound()
     count = settings.samples_per_trajectory
     residuals = path_even_residuals(training, count)
     basis = modal_basis(residuals, settings.modes_per_parity, settings.modes_per_parity)
@@ -40,7 +42,8 @@ def train_autoencoder(
         np.repeat([[model.scales.log_B(trajectory.B)] for trajectory in training], count, axis=0),
         np.repeat(basis.coefficients(terminal / model.scales.half_length), count, axis=0),
     )
-    _fit(model, tuple(torch.tensor(column, dtype=torch.float32) for column in columns), seed, progress)
+    columns = tuple(torch.tensor(column, dtype=torch.float32) for column in columns)
+    _fit(model, columns, training.names, seed, progress)
     return model
 
 
@@ -53,20 +56,20 @@ def path_even_residuals(training: Dataset, count: int) -> Array:
     return np.concatenate(residuals)
 
 
-def _fit(model: Autoencoder, columns: tuple[Tensor, ...], seed: int, progress: Progress) -> None:
+def _fit(model: Autoencoder, columns: tuple[Tensor, ...], names: list[str], seed: int, progress: Progress) -> None:
     settings = model.settings
     generator = torch.Generator().manual_seed(seed)
-    optimiser = soap(model.parameters())
     name = f"autoencoder {model.variant}, d = {model.latent_dim}"
+    descent = Descent(soap(model.parameters()), names, name, progress)
     line = ProgressLine(name, settings.iterations, progress)
     for step in range(settings.iterations):
         rows = torch.randint(len(columns[0]), (settings.batch_size,), generator=generator)
         rate = cosine_rate(settings.learning_rate, step, settings.iterations)
-        loss = descend(optimiser, rate, reconstruction_loss(model, *(column[rows] for column in columns)), name)
-        line.update(step, loss)
+        errors = squared_errors(model, *(column[rows] for column in columns))
+        line.update(step, descent.step(rate, errors.mean(), errors, rows // settings.samples_per_trajectory))
 
 
-def reconstruction_loss(model: Autoencoder, z: Tensor, b: Tensor, terminal: Tensor) -> Tensor:
-    """⟨‖z − ž‖²⟩ over a batch: modal coefficients of residual and terminal shapes (S, r)."""
+def squared_errors(model: Autoencoder, z: Tensor, b: Tensor, terminal: Tensor) -> Tensor:
+    """‖z − ž‖² of each sample (S,): modal coefficients of residual and terminal shapes (S, r)."""
     context = model.context(b, terminal)
-    return (model.decode_modal(model.encode_modal(z, context), context) - z).square().sum(dim=1).mean()
+    return (model.decode_modal(model.encode_modal(z, context), context) - z).square().sum(dim=1)

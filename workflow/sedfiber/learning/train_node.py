@@ -29,7 +29,7 @@ from sedfiber.learning.node_data import EncodedSamples, encode_samples
 from sedfiber.learning.rollout import roll_out
 from sedfiber.learning.segments import Segments, draw_segments
 from sedfiber.learning.settings import NodeSettings
-from sedfiber.learning.training import Progress, ProgressLine, cosine_rate, descend, silent, soap
+from sedfiber.learning.training import Descent, Progress, ProgressLine, cosine_rate, silent, soap
 
 ERROR_FLOOR = 1e-9  # keeps the root in the power mean smooth
 SPEED_FLOOR = 0.05  # ε, in units of the root-mean-square speed
@@ -44,15 +44,17 @@ def train_node(
 ) -> NeuralOde:
     """Train F_h and F_c; the same arguments give the same bytes.
 
-    Raises NumericalError when the loss is not finite.
+    Raises InputError for a trajectory that cannot be learned from, NumericalError when the
+    training diverges; both name the trajectory.
     """
+    training.require_sound()
     exact = copy.deepcopy(autoencoder).double()
     samples = encode_samples(training, exact, settings.samples_per_trajectory)
     node = new_node(samples, settings.hidden, settings.damping, seed)
     generator = torch.Generator().manual_seed(seed)
-    _match(node, samples, settings, generator, progress)
+    _match(node, samples, settings, training.names, generator, progress)
     decoder = copy.deepcopy(autoencoder).requires_grad_(False)
-    _Rollouts(node, decoder, samples, settings, generator).train(progress)
+    _Rollouts(node, decoder, samples, settings, generator).train(training.names, progress)
     return node
 
 
@@ -67,21 +69,22 @@ def _match(
     node: NeuralOde,
     samples: EncodedSamples,
     settings: NodeSettings,
+    names: list[str],
     generator: torch.Generator,
     progress: Progress,
 ) -> None:
     h, rates, context = samples.path_even()
     speed2 = (rates / node.rate_scale)[:, : node.latent_dim].square().mean(1, keepdim=True)
     weight = 1 / (speed2 + SPEED_FLOOR**2)
-    optimiser = soap(node.parameters())
     name = f"neural ODE, d = {node.latent_dim}, matching"
+    descent = Descent(soap(node.parameters()), names, name, progress)
     line = ProgressLine(name, settings.matching_iterations, progress)
     for step in range(settings.matching_iterations):
         rows = torch.randint(len(h), (settings.matching_batch_size,), generator=generator)
         error = node(h[rows], context[rows], node.rest(context[rows])) - rates[rows]
-        loss = (weight[rows] * (error / node.rate_scale).square()).mean()
+        errors = weight[rows] * (error / node.rate_scale).square()
         rate = cosine_rate(settings.matching_learning_rate, step, settings.matching_iterations)
-        line.update(step, descend(optimiser, rate, loss, name))
+        line.update(step, descent.step(rate, errors.mean(), errors.amax(1), rows // samples.even.shape[1]))
 
 
 class _Rollouts:
@@ -98,19 +101,20 @@ class _Rollouts:
         self.node, self.decoder, self.samples = node, decoder, samples
         self.settings, self.generator = settings, generator
 
-    def train(self, progress: Progress) -> None:
+    def train(self, names: list[str], progress: Progress) -> None:
         """All phases, one schedule of the learning rate over them."""
         settings = self.settings
         phases = zip(settings.rollout_lengths, settings.rollout_iterations, strict=True)
         lengths = [length for length, count in phases for _ in range(count)]
-        optimiser = soap(self.node.parameters())
         name = f"neural ODE, d = {self.node.latent_dim}, rollouts"
+        descent = Descent(soap(self.node.parameters()), names, name, progress)
         line = ProgressLine(name, len(lengths), progress)
         for step, length in enumerate(lengths):
             rate = cosine_rate(settings.rollout_learning_rate, step, len(lengths))
-            error = self.errors(self.draw(length)) + ERROR_FLOOR
-            loss = error.pow(settings.power).mean(dim=0).pow(1 / settings.power).mean()
-            line.update(step, descend(optimiser, rate, loss, name))
+            segments = self.draw(length)
+            error = self.errors(segments) + ERROR_FLOOR
+            mean = error.pow(settings.power).mean(dim=0).pow(1 / settings.power)
+            line.update(step, descent.step(rate, mean.mean(), mean, segments.which))
 
     def draw(self, length: int) -> Segments:
         """A batch of segments of ``length`` steps."""

@@ -21,7 +21,7 @@ from sedfiber.learning.node_data import encode_samples
 from sedfiber.learning.scaling import Scales, residual_history
 from sedfiber.learning.settings import SourceNodeSettings
 from sedfiber.learning.train_node import new_node
-from sedfiber.learning.training import Progress, ProgressLine, descend, silent
+from sedfiber.learning.training import Descent, Progress, ProgressLine, silent
 
 SCALE_SAMPLES = 64  # only for std(h) and the size of the rates, which scale the network
 
@@ -35,13 +35,16 @@ def train_node_source(
 ) -> NeuralOde:
     """Train by the source's recipe; the same arguments give the same bytes.
 
-    Raises NumericalError when the loss is not finite.
+    Raises InputError for a trajectory that cannot be learned from, NumericalError when the
+    training diverges; both name the trajectory.
     """
+    training.require_sound()
     scales = autoencoder.scales
     exact = copy.deepcopy(autoencoder).double()
     samples = encode_samples(training, exact, SCALE_SAMPLES)
     node = new_node(samples, settings.hidden, settings.damping, seed)
-    _fit(node, _pairs(training, exact, scales), settings, seed, progress)
+    which = torch.repeat_interleave(torch.tensor([len(one.t) - 1 for one in training]))
+    _fit(node, (*_pairs(training, exact, scales), which), settings, training.names, seed, progress)
     return node
 
 
@@ -63,23 +66,30 @@ def _pairs(training: Dataset, encoder: Autoencoder, scales: Scales) -> tuple[Ten
 
 
 def _fit(
-    node: NeuralOde, pairs: tuple[Tensor, ...], settings: SourceNodeSettings, seed: int, progress: Progress
+    node: NeuralOde,
+    pairs: tuple[Tensor, ...],
+    settings: SourceNodeSettings,
+    names: list[str],
+    seed: int,
+    progress: Progress,
 ) -> None:
     generator = torch.Generator().manual_seed(seed)
-    optimiser = torch.optim.Adam(node.parameters())
     name = f"neural ODE of the source, d = {node.latent_dim}"
+    descent = Descent(torch.optim.Adam(node.parameters()), names, name, progress)
     line = ProgressLine(name, settings.iterations, progress)
     for step in range(settings.iterations):
         early = step < 2 * settings.iterations // 3
         rate = settings.learning_rate if early else settings.final_learning_rate
         rows = torch.randint(len(pairs[0]), (settings.batch_size,), generator=generator)
-        loss = _one_step_loss(node, *(column[rows] for column in pairs), settings)
-        line.update(step, descend(optimiser, rate, loss, name))
+        *columns, which = (column[rows] for column in pairs)
+        errors = _one_step_errors(node, *columns, settings)
+        line.update(step, descent.step(rate, errors.mean(), errors, which))
 
 
-def _one_step_loss(
+def _one_step_errors(
     node: NeuralOde, h: Tensor, context: Tensor, target: Tensor, tau: Tensor, settings: SourceNodeSettings
 ) -> Tensor:
+    """‖h(t+τ) − h̃(t+τ)‖² + ‖c(t+τ) − c̃(t+τ)‖² of each pair (S,); infinite where dopri5 gives up."""
     rest, d = node.rest(context), node.latent_dim
 
     # In units of τ all pairs of the batch take one step of length 1.
@@ -88,5 +98,9 @@ def _one_step_loss(
 
     start = nn.functional.pad(h, (0, N_CENTRE))
     times = torch.tensor([0.0, 1.0])
-    end = odeint(rates, start, times, rtol=settings.rtol, atol=settings.atol, method="dopri5")[-1]
-    return (end - target).square().sum(1).mean()
+    try:
+        end = odeint(rates, start, times, rtol=settings.rtol, atol=settings.atol, method="dopri5")[-1]
+    except AssertionError:  # no step is small enough for the fastest pair of the batch
+        speed = rates(times[0], start).square().sum(1).nan_to_num(nan=torch.inf)
+        return torch.where(speed == speed.max(), torch.inf, 0.0)
+    return (end - target).square().sum(1)

@@ -1,0 +1,139 @@
+"""Forecasts as a user meets them, where the model was not trained: ranges, shapes, precision, companions."""
+
+import math
+
+import numpy as np
+import pytest
+import torch
+
+from sedfiber import InputError, Scene, simulate, steady_state
+from sedfiber.differences import largest_distance
+from sedfiber.forecasting import FAR, Forecaster, load_model
+from sedfiber.learning.forecast import ForecastModel
+from sedfiber.physics.settling import distance_to_terminal
+
+N_BEADS, LENGTH = 7, 14.0
+ARCH = [[-3.0, -4.0], [-3.0, -2.0], [-2.0, -0.3], [0.0, 0.0], [2.0, -0.3], [3.0, -2.0], [3.0, -4.0]]
+
+
+@pytest.fixture(scope="module")
+def forecaster(trained_model):
+    """ℬ from 100 to 400, |θ₀| up to 20 π/48."""
+    return load_model(trained_model)
+
+
+def end_distance(positions, B):
+    """Distance of the last sample from the steady solver's shape, over L."""
+    last = positions[-1] - positions[-1, N_BEADS // 2]
+    return distance_to_terminal(last, steady_state(B, N_BEADS).positions, LENGTH)
+
+
+@pytest.mark.parametrize("B", [10.0, 50.0, 200.0, 800.0])
+@pytest.mark.parametrize("theta0", [0.0, 1.0, math.pi / 2, 2.5, -math.pi])
+def test_every_forecast_ends_at_the_terminal_shape_and_stays(forecaster, B, theta0):
+    """Ten settling times, inside the training range and outside: the reference is the steady solver."""
+    settled = forecaster.settle(B, theta0)
+    assert settled.settling_time is not None
+    positions = forecaster.forecast(B, theta0, np.linspace(0.0, 10.0 * settled.t[-1], 50))
+    assert np.abs(positions - positions[:, 3:4]).max() < 0.6 * LENGTH
+    assert end_distance(positions, B) < 1e-3
+
+
+def test_below_the_range_the_fiber_turns_at_the_rate_of_a_stiff_one(forecaster):
+    """At ℬ = 50, half of the least that was trained: the simulation's settling time to a tenth."""
+    truth = simulate(Scene(50.0, 0.7, N_BEADS)).settling_time
+    assert forecaster.settle(50.0, 0.7).settling_time == pytest.approx(truth, rel=0.1)
+
+
+@pytest.mark.parametrize("theta0", [2.5, 3.0, -2.0, math.pi])
+def test_a_turn_by_pi_is_the_same_fiber_counted_from_the_other_end(forecaster, theta0):
+    """Exactly so in the simulation; a model trained on |θ₀| < π/2 knows it by being told."""
+    t = np.linspace(0.0, 40.0, 9)
+    one = forecaster.forecast(200.0, theta0, t)
+    other = forecaster.forecast(200.0, theta0 - math.copysign(math.pi, theta0), t, "none")
+    if theta0 != math.pi:  # where the other is exactly horizontal, and tilted
+        np.testing.assert_allclose(one, other[:, ::-1], atol=1e-9)
+    assert one[0, 0, 0] > one[0, -1, 0]
+    assert forecaster.covers(200.0, theta0) == forecaster.covers(200.0, theta0 - math.copysign(math.pi, theta0))
+
+
+def test_values_outside_the_range_are_named(forecaster):
+    """ℬ, θ₀ and the range in words; nothing within it."""
+    assert forecaster.warnings(200.0, 3.0) == []
+    (words,) = forecaster.warnings(800.0, 0.0)[:1]
+    assert words == f"B=800, theta0=0 is outside the training range ({forecaster.range_words()})"
+    assert "outside the training range" in forecaster.warnings(200.0, math.pi / 2)[0]
+
+
+def test_a_start_shape_is_turned_like_a_scene_turns_it(forecaster):
+    """A straight shape by the angle is the straight start at that angle; a curved one starts where the scene does."""
+    t = np.array([0.0, 5.0])
+    straight = [[2.0 * k, 0.0] for k in range(N_BEADS)]
+    by_shape, by_angle = forecaster.forecast(200.0, 0.7, t, straight), forecaster.forecast(200.0, 0.7, t)
+    np.testing.assert_allclose(by_shape, by_angle, atol=1e-12)
+    bent = [[2.0 * k, 0.02 * k * (6 - k)] for k in range(N_BEADS)]
+    first = forecaster.forecast(200.0, 0.7, t, bent)[0]
+    assert np.abs(first[:, :2] - Scene(200.0, 0.7, N_BEADS, shape=bent).start()).max() < 2 * FAR * LENGTH
+
+
+def test_a_shape_far_from_any_seen_is_said_so(forecaster):
+    """An arch opens downwards, while settling fibers open upwards; it still ends at the terminal shape."""
+    settled = forecaster.settle(200.0, 0.3, shape=ARCH)
+    (words,) = settled.metadata["model"]["warnings"]
+    assert words.startswith("the start is far from any seen: 0.")
+    assert settled.metadata["model"]["within_training_range"] is False
+    assert end_distance(settled.positions, 200.0) < 1.1e-3
+
+
+@pytest.mark.parametrize(
+    ("shape", "words"),
+    [
+        ([[x, y, 0.1 * x] for x, y in ARCH], "leaves the plane z = 0"),
+        ([[math.nan, 0.0]] * N_BEADS, "not allowed"),
+        (ARCH[:-1], "7 rows"),
+        ([], "7 rows"),
+    ],
+)
+def test_starts_that_are_none_are_refused(forecaster, shape, words):
+    """The model is planar and has seven beads."""
+    with pytest.raises(InputError, match=f"^shape: .*{words}"):
+        forecaster.forecast(200.0, 0.3, [0.0, 1.0], shape)
+
+
+def test_a_forecast_that_ends_elsewhere_says_so(trained_model):
+    """A model whose rates are all zero never settles: it comes to rest where it starts."""
+    model = load_model(trained_model).model
+    for tensor in (*model.node.parameters(), model.node.damping):
+        tensor.data.zero_()
+    still = Forecaster(ForecastModel(model.autoencoder, model.node, 1e-7, 1e-9))
+    settled = still.settle(200.0, 0.7)
+    (words,) = settled.metadata["model"]["warnings"]
+    assert settled.settling_time is None and words.startswith("the forecast comes to rest elsewhere: 0.")
+    assert still.settle(200.0, 0.7, t_end=5.0).metadata["model"]["warnings"] == []
+
+
+def test_a_forecast_that_never_settles_says_so(forecaster, monkeypatch):
+    """The search for the settling time has an end."""
+    monkeypatch.setattr("sedfiber.forecasting._MOST_SAMPLES", 2)
+    monkeypatch.setattr("sedfiber.forecasting._FIRST_LOOK", 2)
+    (words,) = forecaster.settle(200.0, 0.7).metadata["model"]["warnings"]
+    assert words.startswith("the forecast has not settled by t=0.5: 0.")
+
+
+def test_alone_and_in_a_batch_agree(forecaster):
+    """Stiff and soft, steep and flat, and an arch; to 1e-6 L at every sample."""
+    asked = [(B, theta0) for B in (10.0, 100.0, 400.0, 800.0) for theta0 in (0.0, 1.3, math.pi / 2)]
+    starts = [*(forecaster.start(*one) for one in asked), forecaster.start(400.0, 0.3, ARCH)]
+    t = np.linspace(0.0, 400.0, 100)
+    together = forecaster.model.forecast_many(starts, t)
+    for start, one in zip(starts, together, strict=True):
+        assert largest_distance(one, forecaster.model.forecast_many([start], t)[0], LENGTH) < 1e-6
+
+
+def test_float32_agrees_with_float64(forecaster):
+    """Its tolerances stay above its rounding; the difference is far below what counts as settled."""
+    exact = forecaster.model
+    rough = ForecastModel(exact.autoencoder, exact.node, 1e-12, 1e-12, torch.float32)
+    starts, t = [forecaster.start(B, 1.0) for B in (100.0, 400.0)], np.linspace(0.0, 400.0, 50)
+    for one, other in zip(exact.forecast_many(starts, t), rough.forecast_many(starts, t), strict=True):
+        assert 0.0 < largest_distance(one, other, LENGTH) < 1e-4
