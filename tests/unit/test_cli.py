@@ -51,6 +51,16 @@ def test_simulate_writes_a_trajectory(tmp_path, capsys):
     assert list(tmp_path.iterdir()) == [path]
 
 
+def test_a_w_is_called_one(tmp_path, capsys):
+    """The user reads it, and the file says it; there is no settling time, which is that to the U."""
+    path = tmp_path / "w.parquet"
+    options = ["--B", "10000", "--theta0", "0", "--tilt", "0"]
+    assert status_of(["simulate", *options, "-o", path]) == 0
+    assert capsys.readouterr().out.startswith("settled to the W, which is unstable")
+    facts = read_trajectory(path).metadata
+    assert (facts["settled_to"], facts["settling_time"]) == ("W", None)
+
+
 def test_simulate_twice_gives_the_same_bytes(tmp_path):
     """A rerun is byte-identical (DESIGN §3)."""
     paths = [tmp_path / name for name in ("a.parquet", "b.parquet")]

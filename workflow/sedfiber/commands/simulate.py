@@ -49,6 +49,8 @@ def run(args: argparse.Namespace) -> None:
     trajectory = simulate(scene, numerics)
     labelled = replace(trajectory, metadata=trajectory.metadata | {"angle_index": index})
     write_trajectory(labelled, args.output)
+    if trajectory.metadata["settled_to"] == "W":
+        print("settled to the W, which is unstable to left-right asymmetry, and not to the terminal U")
     for verdict in trajectory.metadata["audit"]:
         print(verdict["words"])
 

@@ -3,7 +3,7 @@
 from sedfiber.errors import InputError
 from sedfiber.hard_cases.case import HardCase
 
-ANOTHER_METHOD = "Radau at a tolerance 100 times tighter"
+ANOTHER_METHOD = "another method at a tolerance 100 times tighter"
 
 CASES = (
     HardCase(
