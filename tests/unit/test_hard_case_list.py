@@ -9,7 +9,7 @@ import pytest
 from sedfiber.cli import main
 from sedfiber.errors import NumericalError
 from sedfiber.hard_cases import start_cases
-from sedfiber.hard_cases.case import FOLDER, Measurement, refusal
+from sedfiber.hard_cases.case import FOLDER, Measurement, must_refuse, yes_or_no
 from sedfiber.hard_cases.listing import CASES, NAMES
 
 
@@ -31,8 +31,20 @@ def test_what_counts_as_right():
     assert Measurement("x", 1.0, 1.0).right
     assert not Measurement("x", 1.1, 1.0).right
     assert not Measurement("x", float("nan"), 1.0).right
-    assert refusal("x", True).right
-    assert not refusal("x", False).right
+    assert yes_or_no("x", True).right
+    assert not yes_or_no("x", False).right
+
+
+def test_a_refusal_counts_when_its_line_says_what_it_should():
+    """What goes through, or is refused for another reason, is wrong."""
+
+    def refuse():
+        raise NumericalError("LSODA: lost at t = 3")
+
+    assert must_refuse("x", refuse, "LSODA", "t = 3").right
+    assert not must_refuse("x", refuse, "Radau").right
+    assert not must_refuse("x", lambda: None).right
+    assert must_refuse("x", refuse).note == "LSODA: lost at t = 3"
 
 
 def measured(tmp_path, name):

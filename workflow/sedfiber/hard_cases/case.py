@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
+from sedfiber.errors import SedfiberError
+
 FOLDER = "sedfiber.hard_cases"
 
 
@@ -48,6 +50,16 @@ class HardCase:
         return list(function(model) if self.needs_model else function())
 
 
-def refusal(what: str, refused: bool, note: str = "") -> Measurement:
-    """Something that must be refused: 0 when it was, 1 when it went through."""
-    return Measurement(what, 0.0 if refused else 1.0, 0.0, note)
+def must_refuse(what: str, action: Callable[[], object], *words: str) -> Measurement:
+    """Right (0) when ``action`` is refused in one line that holds all ``words``; the note is that line."""
+    try:
+        action()
+    except SedfiberError as error:
+        line = str(error)
+        return yes_or_no(what, "\n" not in line and all(word in line for word in words), line)
+    return yes_or_no(what, False, "it went through")
+
+
+def yes_or_no(what: str, right: bool, note: str = "") -> Measurement:
+    """Something that is either right (0) or not (1)."""
+    return Measurement(what, 0.0 if right else 1.0, 0.0, note)

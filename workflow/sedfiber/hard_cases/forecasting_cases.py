@@ -6,6 +6,7 @@ import itertools
 import math
 import tempfile
 from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,9 +16,9 @@ import torch
 from sedfiber._typing import History, Positions
 from sedfiber.cli import main
 from sedfiber.differences import largest_distance
-from sedfiber.errors import InputError, NumericalError
+from sedfiber.errors import NumericalError
 from sedfiber.forecasting import Forecaster, load_model
-from sedfiber.hard_cases.case import Measurement, refusal
+from sedfiber.hard_cases.case import Measurement, must_refuse, yes_or_no
 from sedfiber.learning.forecast import ForecastModel
 from sedfiber.physics.settling import SETTLED, distance_to_terminal
 from sedfiber.physics.steady import steady_state
@@ -55,7 +56,7 @@ def forecast_outside_range(model: Path) -> Iterable[Measurement]:
     turned, same = forecaster.forecast(middle, 3.0, t), forecaster.forecast(middle, 3.0 - math.pi, t)
     away = largest_distance(turned, same[:, ::-1], 2.0 * scales.n_beads)
     yield Measurement("a fiber turned by π, its beads counted from the other end: distance, L", away, 1e-9)
-    yield refusal("--strict: refused in one line, nothing written", *_strict_refuses(model, reached[0]))
+    yield yes_or_no("--strict: refused in one line, nothing written", *_strict_refuses(model, reached[0]))
 
 
 def forecast_far_shape(model: Path) -> Iterable[Measurement]:
@@ -69,7 +70,8 @@ def forecast_far_shape(model: Path) -> Iterable[Measurement]:
     flat = shapes["S"]
     out_of_plane = np.hstack([flat, 0.1 * flat[:, :1]])
     for name, shape in {"out of the plane": out_of_plane, "NaN": flat * np.nan, "no beads": flat[:0]}.items():
-        yield refusal(f"{name}: refused in one line", *_one_line(forecaster, shape))
+        start = partial(forecaster.settle, forecaster.model.scales.B_min, 0.3, shape=shape.tolist())
+        yield must_refuse(f"{name}: refused in one line", start, "shape")
 
 
 def forecast_single_and_batched(model: Path) -> Iterable[Measurement]:
@@ -164,14 +166,6 @@ def _far_shapes(n_beads: int) -> dict[str, Positions]:
 def _chain(angles: Positions) -> Positions:
     bonds = 2.0 * np.column_stack([np.cos(angles), np.sin(angles)])
     return np.vstack([np.zeros(2), np.cumsum(bonds, axis=0)])
-
-
-def _one_line(forecaster: Forecaster, shape: Positions) -> tuple[bool, str]:
-    try:
-        forecaster.settle(forecaster.model.scales.B_min, 0.3, shape=shape.tolist())
-    except InputError as error:
-        return str(error).startswith("shape") and "\n" not in str(error), str(error)
-    return False, "it was allowed"
 
 
 def _strict_refuses(model: Path, B: float) -> tuple[bool, str]:

@@ -1,13 +1,13 @@
 """Runs that go far: out of the plane, and down by a million bead radii."""
 
 from collections.abc import Iterable
+from functools import partial
 from math import pi
 
 import numpy as np
 
 from sedfiber.differences import largest_distance
-from sedfiber.errors import NumericalError
-from sedfiber.hard_cases.case import Measurement, refusal
+from sedfiber.hard_cases.case import Measurement, must_refuse, yes_or_no
 from sedfiber.numerics import Numerics
 from sedfiber.physics.spectrum import spectrum
 from sedfiber.physics.steady import terminal_state
@@ -35,9 +35,10 @@ def out_of_the_plane() -> Iterable[Measurement]:
         run = simulate(scene, t_end=t_end)
         left = out_of_plane(run.shape)[0].max()
         yield Measurement(f"B={B:g}: 1 a over the largest distance from a vertical plane", 1.0 / left, 1.0)
-        called = run.metadata["settled_to"] is not None or run.settling_time is not None
-        yield Measurement(f"B={B:g}: called settled (0: no)", float(called), 0.0)
-        yield refusal(f"B={B:g} without an end: refused, with the rate", *_never_settles(scene))
+        unnamed = run.metadata["settled_to"] is None and run.settling_time is None
+        yield yes_or_no(f"B={B:g}: not called settled", unnamed)
+        endless = partial(simulate, scene)
+        yield must_refuse(f"B={B:g} without an end: refused, with the rate", endless, "unstable", "--t-end")
 
 
 def fall_of_a_million() -> Iterable[Measurement]:
@@ -60,11 +61,3 @@ def fall_of_a_million() -> Iterable[Measurement]:
 
 def _change(shapes: np.ndarray) -> float:
     return largest_distance(shapes[-1:], shapes[:1], 2.0 * shapes.shape[1])
-
-
-def _never_settles(scene: Scene) -> tuple[bool, str]:
-    try:
-        simulate(scene)
-    except NumericalError as error:
-        return "unstable" in str(error) and "--t-end" in str(error), str(error)
-    return False, "it settled"

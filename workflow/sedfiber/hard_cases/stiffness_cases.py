@@ -1,12 +1,12 @@
 """Stiff and floppy fibers against another method at tighter tolerances."""
 
 from collections.abc import Iterable
+from functools import partial
 from math import pi
 
 from sedfiber.angles import angle_of
 from sedfiber.differences import largest_distance
-from sedfiber.errors import NumericalError
-from sedfiber.hard_cases.case import Measurement, refusal
+from sedfiber.hard_cases.case import Measurement, must_refuse, yes_or_no
 from sedfiber.numerics import Numerics
 from sedfiber.physics.checks import ENERGY_BALANCE
 from sedfiber.scene import Scene
@@ -44,9 +44,11 @@ def beyond_the_U() -> Iterable[Measurement]:
             yield from _against(simulate(scene, t_end=WHILE), TIGHT, f"B={B:g}, k={k}, contact and overlap form")
     loose = simulate(Scene(1e6, pi / 4, hydrodynamics="RPY-overlap"), t_end=WHILE)
     missed = any(verdict["effect"] == "contact" and verdict["matters"] for verdict in loose.metadata["audit"])
-    yield Measurement("B=1e6 without contact: the audit says that it matters (0: yes)", float(not missed), 0.0)
-    yield refusal("B=1e6 with plain RPY: refused, naming the pair", *_collapse(Scene(1e6, pi / 4)))
-    yield refusal("B=1e5 without an end: refused, naming the fold", *_no_terminal_shape(Scene(1e5, pi / 4)))
+    yield yes_or_no("B=1e6 without contact: the audit says that it matters", missed)
+    collapse = partial(simulate, Scene(1e6, pi / 4), t_end=WHILE)
+    yield must_refuse("B=1e6 with plain RPY: refused, naming the pair", collapse, "not positive definite", "beads")
+    endless = partial(simulate, Scene(1e5, pi / 4))
+    yield must_refuse("B=1e5 without an end: refused, naming the fold", endless, "ends in a fold", "--t-end")
 
 
 def _against(run: Trajectory, numerics: Numerics, words: str) -> Iterable[Measurement]:
@@ -61,19 +63,3 @@ def _against(run: Trajectory, numerics: Numerics, words: str) -> Iterable[Measur
 def scene_of(run: Trajectory) -> Scene:
     """The scene that a run's metadata record."""
     return Scene.from_dict({key: value for key, value in run.metadata["scene"].items() if key != "start_angle"})
-
-
-def _collapse(scene: Scene) -> tuple[bool, str]:
-    try:
-        simulate(scene, t_end=WHILE)
-    except NumericalError as error:
-        return "not positive definite" in str(error) and "beads" in str(error), str(error)
-    return False, "it ran through"
-
-
-def _no_terminal_shape(scene: Scene) -> tuple[bool, str]:
-    try:
-        simulate(scene)
-    except NumericalError as error:
-        return "ends in a fold" in str(error) and "--t-end" in str(error), str(error)
-    return False, "it settled"

@@ -8,7 +8,7 @@ import numpy as np
 
 from sedfiber._typing import History
 from sedfiber.differences import largest_distance, rms_distance
-from sedfiber.hard_cases.case import Measurement
+from sedfiber.hard_cases.case import Measurement, yes_or_no
 from sedfiber.numerics import Numerics
 from sedfiber.physics.assembly import assemble
 from sedfiber.physics.integrators import RadauMarch, Tolerances
@@ -30,9 +30,10 @@ def exactly_symmetric() -> Iterable[Measurement]:
         run = simulate(Scene(B, 0.0, tilt=0.0))
         yield Measurement(f"B={B:g}: largest asymmetry, a", asymmetry(run.shape).max(), 1e-9)
         end = run.metadata["settled_to"]
-        yield Measurement(f"B={B:g}: settles to the {name} (0: yes)", float(end != name), 0.0, f"settled to {end}")
-        called = name != "U" and run.settling_time is not None
-        yield Measurement(f"B={B:g}: a W is called the terminal U (0: no)", float(called), 0.0)
+        yield yes_or_no(f"B={B:g}: settles to the {name}", end == name, f"settled to {end}")
+        yield yes_or_no(
+            f"B={B:g}: has a settling time if it is a U, and none if not", (name == "U") == bool(run.settling_time)
+        )
         whole = _whole_fiber(B, len(run.t))
         samples = int(np.argmax(asymmetry(whole) > _STILL_SYMMETRIC)) or len(whole)
         apart = largest_distance(run.shape[:samples], whole[:samples], 62.0)

@@ -1,8 +1,8 @@
 """Trainings that must stop with the name of the trajectory, or recover, and never leave a model full of NaN."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -10,8 +10,7 @@ import numpy as np
 import torch
 
 from sedfiber.angles import angle_of
-from sedfiber.errors import InputError, NumericalError, SedfiberError
-from sedfiber.hard_cases.case import Measurement, refusal
+from sedfiber.hard_cases.case import Measurement, must_refuse, yes_or_no
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.dataset import Dataset, Trajectory
 from sedfiber.learning.forecast import ForecastModel
@@ -57,21 +56,16 @@ def training_constant() -> Iterable[Measurement]:
 def training_diverging() -> Iterable[Measurement]:
     """A learning rate 1e6 too high, one bad loss in a sound training, and weights of NaN."""
     wild = replace(NODE, rollout_learning_rate=1e6 * NODE.rollout_learning_rate)
-    said = _line_of(lambda: train_node(_sound(), _autoencoder(), 0, wild), NumericalError)
-    yield refusal(
-        "rollouts that blow up: stopped in one line that names a trajectory",
-        any(name in said for name in _sound().names) and "\n" not in said,
-        said,
-    )
+    stopped = must_refuse("", partial(train_node, _sound(), _autoencoder(), 0, wild), "bad steps in all")
+    named = stopped.right and any(name in stopped.note for name in _sound().names)
+    yield yes_or_no("rollouts that blow up: stopped in one line that names a trajectory", named, stopped.note)
     yield from _one_bad_loss()
     node = train_node(_sound(), _autoencoder(), 0, NODE)
     next(iter(node.parameters())).data.fill_(np.nan)
     model = ForecastModel(_autoencoder(), node, NODE.rtol, NODE.atol)
     with TemporaryDirectory() as folder:
-        refused = _line_of(lambda: save_forecast_model(model, Path(folder), {}), NumericalError)
-        left = len(list(Path(folder).iterdir()))
-    yield refusal("a model full of NaN: not saved", bool(refused), refused)
-    yield Measurement("files left by a model that is not saved", float(left), 0.0)
+        yield must_refuse("a model full of NaN: not saved", partial(save_forecast_model, model, Path(folder), {}))
+        yield yes_or_no("a model that is not saved leaves no file", not list(Path(folder).iterdir()))
 
 
 def _one_bad_loss() -> Iterable[Measurement]:
@@ -85,7 +79,7 @@ def _one_bad_loss() -> Iterable[Measurement]:
         errors = ((x @ weights - x @ truth) ** 2).mean(1) * (torch.nan if step == 30 else 1.0)
         loss = descent.step(cosine_rate(0.1, step, 300), errors.mean(), errors, torch.zeros(64, dtype=torch.long))
     note = reports[0] if reports else ""
-    yield Measurement("one bad loss: reports, off from one", float(abs(len(reports) - 1)), 0.0, note)
+    yield yes_or_no("one bad loss: reported once", len(reports) == 1, note)
     yield Measurement("one bad loss: loss at the end, 0.5 at the start", loss, 1e-5)
 
 
@@ -120,21 +114,9 @@ def _spoilt(**changes: np.ndarray) -> tuple[Dataset, Trajectory]:
 def _named(training: Dataset, spoilt: Trajectory) -> Iterable[Measurement]:
     """Every training must refuse the data set in one line that names the spoilt trajectory."""
     trainings = {
-        "autoencoder": lambda: train_autoencoder(training, "decoder", 2, 0, AUTOENCODER),
-        "neural ODE": lambda: train_node(training, _autoencoder(), 0, NODE),
-        "neural ODE of the source": lambda: train_node_source(training, _autoencoder(), 0, SOURCE),
+        "autoencoder": partial(train_autoencoder, training, "decoder", 2, 0, AUTOENCODER),
+        "neural ODE": partial(train_node, training, _autoencoder(), 0, NODE),
+        "neural ODE of the source": partial(train_node_source, training, _autoencoder(), 0, SOURCE),
     }
     for name, train in trainings.items():
-        said = _line_of(train, InputError)
-        yield refusal(
-            f"{name}: refused in one line that names the trajectory", spoilt.name in said and "\n" not in said, said
-        )
-
-
-def _line_of(action: Callable[[], object], kind: type[SedfiberError]) -> str:
-    """What the action refuses with; empty when it does not."""
-    try:
-        action()
-    except kind as error:
-        return str(error)
-    return ""
+        yield must_refuse(f"{name}: refused in one line that names the trajectory", train, spoilt.name)
