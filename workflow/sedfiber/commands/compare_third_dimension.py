@@ -7,9 +7,9 @@ from pathlib import Path
 import pandas as pd
 
 from sedfiber.atomic_file import require_writable
-from sedfiber.plane_stability import Growth, terminal_rate, threshold, watch
 from sedfiber.scene import Scene
 from sedfiber.simulation import simulate
+from sedfiber.stability.plane_stability import Growth, terminal_rate, threshold, watch
 from sedfiber.tables import write_csv
 from sedfiber.validation import positive_number
 

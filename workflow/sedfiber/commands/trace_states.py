@@ -7,10 +7,10 @@ import numpy as np
 import pandas as pd
 
 from sedfiber.atomic_file import require_writable
-from sedfiber.branches import Vertical, trace_sections
 from sedfiber.errors import InputError
 from sedfiber.scene import Scene
-from sedfiber.states import MEANINGFUL, THRESHOLD_COLUMNS, disagreement, state_rows, threshold_rows
+from sedfiber.stability.branches import Vertical, trace_sections
+from sedfiber.stability.states import MEANINGFUL, THRESHOLD_COLUMNS, disagreement, state_rows, threshold_rows
 from sedfiber.tables import write_csv
 from sedfiber.validation import positive_number, whole_number
 

@@ -11,10 +11,10 @@ from sedfiber.hard_cases.case import Measurement, must_refuse, yes_or_no
 from sedfiber.numerics import Numerics
 from sedfiber.physics.spectrum import spectrum
 from sedfiber.physics.steady import terminal_state
-from sedfiber.plane_stability import out_of_plane, watch
 from sedfiber.scene import Scene
 from sedfiber.scene_parts import Disturbance
 from sedfiber.simulation import simulate
+from sedfiber.stability.plane_stability import out_of_plane, watch
 
 OUT = 1e-4  # a: displacement out of the plane at the start
 FALL = 1e6  # a

@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from sedfiber.branches import Branch, spectrum_of
-from sedfiber.growth import measured_rate
 from sedfiber.physics.spectrum import Mode, Spectrum
 from sedfiber.physics.steady import SteadyState
+from sedfiber.stability.branches import Branch, spectrum_of
+from sedfiber.stability.growth import measured_rate
 
 NEAR = 1e-3  # of ℬ: how far from a threshold the rates on its two sides are measured
 MEANINGFUL = 1e-7  # U_s/a: below this a rate is round-off, and a ratio of two says nothing
