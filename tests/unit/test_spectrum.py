@@ -7,7 +7,7 @@ import pytest
 
 from sedfiber import Scene, steady_state
 from sedfiber.physics.assembly import assemble
-from sedfiber.physics.spectrum import spectrum
+from sedfiber.physics.spectrum import leaving_rate, spectrum
 
 SCENE = Scene(5000.0, 0.0)
 
@@ -104,3 +104,20 @@ def test_stability_is_read_off_the_rates(steady):
     _, modes = steady
     assert modes.in_plane_rate < 0.0 < modes.out_of_plane_rate
     assert (modes.stable_in_plane, modes.stable_in_volume) == (True, False)
+
+
+@pytest.mark.parametrize(("symmetric", "flat"), [(True, True), (False, True), (False, False), (True, False)])
+def test_what_a_run_can_do_is_read_off_the_modes_it_can_have(steady, symmetric, flat):
+    """A symmetric run has only symmetric modes of the plane, a flat one none across it."""
+    positions, modes = steady
+    own = [mode for mode in modes.in_plane if mode.symmetric or not symmetric] + ([] if flat else modes.out_of_plane)
+    fastest = max(mode.rate.real for mode in own)
+    assert leaving_rate(SCENE, positions, symmetric, flat) == pytest.approx(fastest, rel=1e-8)
+
+
+def test_round_off_is_not_taken_for_growth():
+    """At ℬ = 1e-6 the slowest rate, −1.2e-10, drowns in round-off of the stiffest, 2e7; nothing is called unstable."""
+    scene = Scene(1e-6, 0.0)
+    modes = spectrum(scene, steady_state(1e-6).positions)
+    assert abs(modes.in_plane_rate) < modes.round_off
+    assert modes.stable_in_volume

@@ -21,7 +21,10 @@ pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
 def test_tables_have_a_row_for_everything(finished):
     """10 runs; 8 autoencoders and 2 PODs on 2 sets; 4 forecasts by each of 3 forecasters."""
     tables = finished.folder / "results/tables"
-    assert len(pd.read_csv(tables / "trajectories.csv")) == 10
+    trajectories = pd.read_csv(tables / "trajectories.csv")
+    assert len(trajectories) == 10
+    assert (trajectories["settled_to"] == "U").all()
+    assert trajectories["error_estimate"].between(0.0, 1e-5, inclusive="neither").all()
     assert len(pd.read_csv(tables / "reconstruction.csv")) == (8 + 2) * 2
     errors = pd.read_csv(tables / "forecast_errors.csv")
     assert list(errors.columns) == [
