@@ -22,8 +22,9 @@ from sedfiber.scene import Scene
 
 TOLERANCE = 1e-10  # on the largest relative bead speed, in U_s
 _MAX_NEWTON = 12
+_QUICK = 6  # Newton steps from the prediction; where it takes more, shorter steps along the curve may find nothing
 _FIRST_STEP, _LONGEST_STEP, _LAST_STEP = 0.1, 0.25, 1e-6
-_LARGEST_CORRECTION = 0.02  # of L, by which Newton may move a bead from the prediction
+_LARGEST_CORRECTION = 0.01  # of L, by which Newton may move a bead from the prediction
 _LEAST_COSINE = 0.8  # of the angle between tangents one step apart; past a right angle the way back looks like ahead
 _LAST_CORRECTION = 1e-5  # of the height, by which the last Newton step may still move a bead
 _LAST_MOVE = 1e-6  # a, and of λ: the last Newton step on the curve
@@ -72,7 +73,7 @@ class SteadyCurve:
         """Points ever further along the tangent; raises NumericalError where Newton no longer finds the curve."""
         step = _FIRST_STEP
         while True:
-            ahead = self.ahead(point, step)
+            ahead = self.ahead(point, step, _QUICK)
             if ahead is None or self._strayed(point, step, ahead):
                 step /= 2.0
                 if step < _LAST_STEP:
@@ -81,32 +82,17 @@ class SteadyCurve:
             yield ahead
             point, step = ahead, min(_LONGEST_STEP, 1.5 * step)
 
-    def ahead(self, point: CurvePoint, step: float) -> CurvePoint | None:
+    def ahead(self, point: CurvePoint, step: float, most: int = _MAX_NEWTON) -> CurvePoint | None:
         """Where the curve meets the plane across the tangent at ``step``; None where Newton does not get there."""
-        predicted = point.unknowns + step * point.tangent
-        border = self._metric * point.tangent
-        at = predicted
-        for _ in range(_MAX_NEWTON):
-            residual, matrix = self._linearise(at)
-            if not np.isfinite(residual).all():
-                return None
-            target = np.append(residual, border @ (at - predicted))
-            try:
-                correction = np.linalg.solve(np.vstack([matrix, border]), target)
-            except np.linalg.LinAlgError:
-                return None
-            at = at - correction
-            if np.abs(residual).max() < TOLERANCE + self._noise(at) and np.abs(correction).max() < _LAST_MOVE:
-                return CurvePoint(at, self._tangent(matrix, border))
-        return None
+        return self._correct(point.unknowns + step * point.tangent, self._metric * point.tangent, most)
 
     def crossing(
         self, point: CurvePoint, ahead: CurvePoint, measure: Callable[[CurvePoint], float], accuracy: float = _ROOT
     ) -> CurvePoint:
         """Where ``measure`` is zero between two points of the curve, by root finding along it to an arclength."""
-        step = float((self._metric * point.tangent) @ (ahead.unknowns - point.unknowns))
-        root = brentq(lambda s: measure(self._must(point, s)), 0.0, step, xtol=accuracy)
-        return self._must(point, root)
+        length = self._length(ahead.unknowns - point.unknowns)
+        root = brentq(lambda u: measure(self._between(point, ahead, u)), 0.0, 1.0, xtol=accuracy / length)
+        return self._between(point, ahead, root)
 
     def at(self, B: float, point: CurvePoint, ahead: CurvePoint) -> CurvePoint:
         """The point at ``B`` between two points of the curve, solved to round-off."""
@@ -123,11 +109,36 @@ class SteadyCurve:
         """The fold in ℬ between two points whose tangents point to opposite sides."""
         return self.crossing(point, ahead, lambda p: float(p.tangent[-1]))
 
-    def _must(self, point: CurvePoint, step: float) -> CurvePoint:
-        ahead = self.ahead(point, step)
-        if ahead is None:
+    def _between(self, point: CurvePoint, ahead: CurvePoint, u: float) -> CurvePoint:
+        """The point at the share ``u`` of the way: Newton from the cubic through both points and their tangents."""
+        chord = ahead.unknowns - point.unknowns
+        border = self._metric * chord
+        slopes = [self._length(chord) * np.sign(border @ end.tangent) * end.tangent for end in (point, ahead)]
+        bend = (1.0 - u) * (slopes[0] - chord) - u * (slopes[1] - chord)
+        found = self._correct(point.unknowns + u * chord + u * (1.0 - u) * bend, border, _MAX_NEWTON)
+        if found is None:
             raise NumericalError(f"steady: the branch was lost near B={point.B:.6g}")
-        return ahead
+        return found
+
+    def _correct(self, predicted: Array, border: Array, most: int) -> CurvePoint | None:
+        """Newton within the plane across ``border`` (K + 1,); the tangent points to its side."""
+        at = predicted
+        for _ in range(most):
+            residual, matrix = self._linearise(at)
+            if not np.isfinite(residual).all():
+                return None
+            target = np.append(residual, border @ (at - predicted))
+            try:
+                correction = np.linalg.solve(np.vstack([matrix, border]), target)
+            except np.linalg.LinAlgError:
+                return None
+            at = at - correction
+            if np.abs(residual).max() < TOLERANCE + self._noise(at) and np.abs(correction).max() < _LAST_MOVE:
+                return CurvePoint(at, self._tangent(matrix, border))
+        return None
+
+    def _length(self, step: Array) -> float:
+        return float(np.sqrt(self._metric @ step**2))
 
     def _strayed(self, point: CurvePoint, step: float, ahead: CurvePoint) -> bool:
         """Whether Newton went so far from the prediction, or the curve turned so much, that it may lead elsewhere."""
@@ -138,7 +149,7 @@ class SteadyCurve:
     def _tangent(self, matrix: Matrix, border: Array) -> Array:
         """The unit tangent with a positive product with ``border``."""
         tangent = np.linalg.solve(np.vstack([matrix, border]), np.append(np.zeros(self._size), 1.0))
-        return tangent / np.sqrt(self._metric @ tangent**2)
+        return tangent / self._length(tangent)
 
     def _linearise(self, unknowns: Array) -> tuple[Array, Matrix]:
         """``r`` (K,) and its derivatives by ``h`` and ``λ``, (K, K + 1)."""
