@@ -119,3 +119,17 @@ def test_a_state_beside_a_fold_is_on_its_own_branch(curve):
     sides = [curve.ahead(fold, side) for side in (-1e-3, 1e-3)]
     near = [curve.at(fold.B * (1 + 1e-7), fold, side) for side in sides]
     assert symmetric_rate(near[0]) < 0 < symmetric_rate(near[1])
+
+
+def test_every_state_between_two_points_is_found():
+    """101 stiff beads bend in a narrow range about ℬ = 300, where Newton from afar goes astray."""
+    scene = Scene(100.0, 0.0, 101)
+    curve = SteadyCurve(scene)
+    last = straight_point(scene, curve)
+    for point in curve.follow(last):
+        wanted = np.geomspace(last.B, point.B, 7)[1:-1]
+        found = [curve.at(float(B), last, point).B for B in wanted]
+        np.testing.assert_allclose(found, wanted, rtol=1e-12)
+        last = point
+        if last.B > 500.0:
+            break
