@@ -72,9 +72,9 @@ class NodeSettings:
     max_stride: int = 6
     """Stage 2, longest step in sample intervals: 3 a/U_s, above which the Runge–Kutta
     method is unstable for the bending modes at ℬ = 100."""
-    rtol: float = 1.0e-8
+    rtol: float = 1.0e-9
     """Relative tolerance of dopri5 in a forecast."""
-    atol: float = 1.0e-10
+    atol: float = 1.0e-11
     """Absolute tolerance of dopri5 in a forecast, units of h and of L/2."""
 
     def __post_init__(self) -> None:
