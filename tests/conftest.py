@@ -24,6 +24,8 @@ def trained_model(tmp_path_factory):
     from sedfiber.learning.settings import AutoencoderSettings, NodeSettings
     from sedfiber.learning.train_autoencoder import train_autoencoder
     from sedfiber.learning.train_node import train_node
+    from sedfiber.terminal_curve import FILE as CURVE
+    from sedfiber.terminal_curve import TerminalCurve, write_terminal_curve
 
     torch.set_num_threads(1)
     training = simulated(7, (100.0, 200.0, 400.0), (0, 5, 10, 15, 20))
@@ -36,4 +38,5 @@ def trained_model(tmp_path_factory):
     node = train_node(training, autoencoder, 0, settings)
     folder = tmp_path_factory.mktemp("model")
     save_forecast_model(ForecastModel(autoencoder, node, settings.rtol, settings.atol), folder, {})
+    write_terminal_curve(TerminalCurve.between(100.0, 400.0, 7), folder / CURVE)
     return folder

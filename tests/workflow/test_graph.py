@@ -6,7 +6,8 @@ pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
 
 AFTER_EVERYTHING = {"tabulate_timings", "write_manifest"}
 ERRORS = {"tabulate_forecast_errors", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"}
-MODELS = {"train_autoencoder", "tabulate_reconstruction", "plot_reconstruction", "train_node", "choose_forecast_model"}
+CHOICE = {"solve_terminal_curve", "choose_forecast_model"}
+MODELS = {"train_autoencoder", "tabulate_reconstruction", "plot_reconstruction", "train_node"} | CHOICE
 FORECASTS = {"forecast_test_set", "forecast_by_lookup"}
 
 
@@ -26,7 +27,7 @@ def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
         ("simulations", {"simulate", "tabulate_trajectories", "tabulate_audit"}),
         ("dataset", {"simulate", "aggregate_dataset", "solve_terminal_shapes"}),
         ("autoencoders", {"train_autoencoder", "tabulate_reconstruction"}),
-        ("node", {"train_node", "choose_forecast_model"}),
+        ("node", {"train_node"} | CHOICE),
         ("forecasts", {"forecast_test_set", "forecast_by_lookup"}),
         ("errors", ERRORS | {"plot_reconstruction"}),
         ("check_simulations", {"check_simulation", "tabulate_checks"}),

@@ -130,6 +130,7 @@ def benchmarks():
     names = [
         *(f"simulate/B{B}_k{k}" for split in STUDY.splits for B, k in STUDY.runs(split)),
         *splits,
+        "solve_terminal_curve",
         "tabulate_trajectories",
         "tabulate_audit",
         *(f"train_autoencoder/{Path(folder).name}" for folder in AUTOENCODERS),

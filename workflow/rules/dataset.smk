@@ -26,6 +26,29 @@ rule solve_terminal_shapes:
         "sedfiber solve_terminal_shapes --B {params.B} {params.options} -o {output} > {log} 2>&1"
 
 
+rule solve_terminal_curve:
+    input:
+        sources("solve_terminal_curve"),
+    output:
+        "results/terminal_shapes/terminal_curve.parquet",
+    log:
+        "results/logs/solve_terminal_curve.log",
+    benchmark:
+        "results/benchmarks/solve_terminal_curve.tsv"
+    conda:
+        "../../envs/simulate.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        options=STUDY.terminal_curve_options,
+    message:
+        "solve the terminal shapes over the whole range of the training"
+    shell:
+        "sedfiber solve_terminal_curve {params.options} -o {output} > {log} 2>&1"
+
+
 rule aggregate_dataset:
     input:
         sources("aggregate_dataset"),

@@ -36,8 +36,10 @@ rule train_node:
 rule choose_forecast_model:
     input:
         model_files(f"results/models/node/{config['node']['forecast_model']}"),
+        "results/terminal_shapes/terminal_curve.parquet",
     output:
         model_files("results/models/forecast"),
+        "results/models/forecast/terminal_curve.parquet",
     log:
         "results/logs/choose_forecast_model.log",
     benchmark:

@@ -15,6 +15,7 @@ COMMANDS = {
     "steady": "terminal shape and speed at one elasto-gravitational number",
     "forecast": "forecast one fiber with the trained model",
     "solve_terminal_shapes": "steady shapes of several elasto-gravitational numbers in one table",
+    "solve_terminal_curve": "terminal shapes of a whole range of elasto-gravitational numbers as one series",
     "aggregate_dataset": "the trajectories of one split as one data set",
     "tabulate_trajectories": "settling time, cost and checks of every run",
     "check_simulation": "one run again with another method and tighter tolerance",

@@ -1,6 +1,7 @@
 """A trained model as a user meets it: ℬ, θ₀ and times in, bead positions out.
 
-The terminal shape and velocity at any ℬ come from the steady solver. A fiber is the same with
+The terminal shape and velocity come from the series that lies beside the model, and from the
+steady solver outside the series' range, or where there is none. A fiber is the same with
 its beads counted from the other end, so that a start beyond ±π/2 is forecast in reversed order.
 """
 
@@ -10,13 +11,16 @@ from typing import Any
 
 import numpy as np
 
-from sedfiber._typing import Array, History, Times
+from sedfiber._typing import Array, History, Positions, Times
 from sedfiber.errors import InputError
-from sedfiber.learning.forecast import ForecastModel, Start
+from sedfiber.learning.forecast import ForecastModel
 from sedfiber.learning.model_files import load_forecast_model
+from sedfiber.learning.start import Start
 from sedfiber.physics.settling import SETTLED, distance_to_terminal, settling_time
-from sedfiber.physics.steady import SteadyState, steady_state
+from sedfiber.physics.steady import steady_state
 from sedfiber.scene import Scene
+from sedfiber.terminal_curve import FILE as CURVE
+from sedfiber.terminal_curve import TerminalCurve, read_terminal_curve
 from sedfiber.trajectory import Trajectory
 
 _FIRST_LOOK = 256  # samples forecast before the first look at whether the fiber has settled
@@ -33,9 +37,9 @@ FAR = 5e-3
 class Forecaster:
     """A loaded model; ``model.scales`` holds the range it was trained on."""
 
-    def __init__(self, model: ForecastModel, hydrodynamics: str = "RPY"):
-        self.model = model
-        self.hydrodynamics = hydrodynamics
+    def __init__(self, model: ForecastModel, curve: TerminalCurve | None = None, hydrodynamics: str = "RPY"):
+        self.model, self.curve = model, curve
+        self.hydrodynamics = hydrodynamics if curve is None else curve.hydrodynamics
 
     def forecast(self, B: float, theta0: float, t: Times, shape: Any = None) -> History:
         """Positions (T, N, 3) at ascending times ``t`` (T,), the centre bead at the origin at time 0.
@@ -101,13 +105,17 @@ class Forecaster:
     def _start(self, scene: Scene) -> Start:
         initial = np.zeros((scene.n_beads, 3))
         initial[:, : scene.dim] = scene.start()
-        steady, nearest_B = self._steady(scene.B), self.model.scales.nearest_B(scene.B)
-        nearest = None if nearest_B == scene.B else (nearest_B, self._steady(nearest_B).positions)
-        forward = initial[:: _order(initial)]
-        return Start(scene.B, forward, steady.positions, steady.velocity, nearest)
+        terminal, velocity = self._terminal(scene.B)
+        nearest_B = self.model.scales.nearest_B(scene.B)
+        nearest = None if nearest_B == scene.B else (nearest_B, self._terminal(nearest_B)[0])
+        return Start(scene.B, initial[:: _order(initial)], terminal, velocity, nearest)
 
-    def _steady(self, B: float) -> SteadyState:
-        return steady_state(B, self.model.scales.n_beads, self.hydrodynamics)
+    def _terminal(self, B: float) -> tuple[Positions, Array]:
+        """Terminal shape (N, 3) and velocity (3,)."""
+        if self.curve is not None and self.curve.covers(B):
+            return self.curve(B)
+        steady = steady_state(B, self.model.scales.n_beads, self.hydrodynamics)
+        return steady.positions, steady.velocity
 
     def _positions(self, scene: Scene, start: Start, t: Times) -> History:
         """The forecast with its beads in the scene's order."""
@@ -143,7 +151,8 @@ class Forecaster:
 
 def load_model(folder: str | Path) -> Forecaster:
     """Load a forecast model, such as ``results/models/forecast``; raises InputError for anything else."""
-    return Forecaster(load_forecast_model(folder))
+    curve = Path(folder) / CURVE
+    return Forecaster(load_forecast_model(folder), read_terminal_curve(curve) if curve.exists() else None)
 
 
 def _order(start: Array) -> int:

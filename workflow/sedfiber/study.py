@@ -71,6 +71,12 @@ class Study:
         return as_options(self._fiber)
 
     @property
+    def terminal_curve_options(self) -> str:
+        """Options of ``sedfiber solve_terminal_curve``: the range of the training."""
+        B = self.config["study"]["train"]["B"]
+        return as_options({"B_min": min(B), "B_max": max(B)} | self._fiber)
+
+    @property
     def third_dimension_options(self) -> str:
         """Options of ``sedfiber compare_third_dimension`` but for ℬ."""
         how = {key: value for key, value in self.config["third_dimension"].items() if key != "B"}

@@ -5,7 +5,7 @@ import pytest
 from tiny_fiber import settling
 
 from sedfiber.errors import InputError
-from sedfiber.learning.forecast import ForecastModel, Start
+from sedfiber.learning.forecast import ForecastModel
 from sedfiber.learning.model_files import (
     load_autoencoder,
     load_forecast_model,
@@ -13,6 +13,7 @@ from sedfiber.learning.model_files import (
     save_forecast_model,
 )
 from sedfiber.learning.settings import AutoencoderSettings, NodeSettings
+from sedfiber.learning.start import Start
 from sedfiber.learning.train_autoencoder import train_autoencoder
 from sedfiber.learning.train_node import train_node
 

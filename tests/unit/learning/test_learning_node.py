@@ -5,13 +5,14 @@ from scipy.integrate import solve_ivp
 from tiny_fiber import settling
 
 from sedfiber.errors import InputError
-from sedfiber.learning.forecast import ForecastModel, Start
+from sedfiber.learning.forecast import ForecastModel
 from sedfiber.learning.measures import forecast_error
 from sedfiber.learning.neural_ode import NeuralOde
 from sedfiber.learning.node_data import encode_samples
 from sedfiber.learning.rollout import roll_out
 from sedfiber.learning.segments import draw_segments
 from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
+from sedfiber.learning.start import Start
 from sedfiber.learning.train_autoencoder import train_autoencoder
 from sedfiber.learning.train_node import train_node
 from sedfiber.learning.train_node_source import train_node_source

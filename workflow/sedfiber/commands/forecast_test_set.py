@@ -11,8 +11,9 @@ from sedfiber.atomic_file import require_writable
 from sedfiber.commands._training import add_data_arguments
 from sedfiber.dataset_file import write_dataset
 from sedfiber.learning.dataset import Dataset, read_dataset
-from sedfiber.learning.forecast import ForecastModel, Start
+from sedfiber.learning.forecast import ForecastModel
 from sedfiber.learning.model_files import load_forecast_model
+from sedfiber.learning.start import Start
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -14,7 +14,6 @@ networks end 0.04 to 0.4 L from the terminal shape at ℬ = 10, 50 and 60000; th
 
 import copy
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -24,35 +23,9 @@ from torchdiffeq import odeint
 from sedfiber._typing import Array, History, Positions, Times
 from sedfiber.errors import InputError, NumericalError
 from sedfiber.learning.autoencoder import Autoencoder
-from sedfiber.learning.dataset import Trajectory
 from sedfiber.learning.neural_ode import N_CENTRE, NeuralOde
 from sedfiber.learning.scaling import Scales
-
-
-@dataclass(frozen=True)
-class Start:
-    """What a forecast starts from: ``initial`` positions (N, 3), and the steady state at ℬ.
-
-    ``terminal`` (N, 3) is relative to the centre bead, ``terminal_velocity`` has shape (3,).
-    ``nearest`` is the nearest trained ℬ with its terminal shape, where ℬ is outside the
-    training range; without it the networks are asked at ℬ itself.
-    """
-
-    B: float
-    initial: Positions
-    terminal: Positions
-    terminal_velocity: Array
-    nearest: tuple[float, Positions] | None = None
-
-    @property
-    def pace(self) -> float:
-        """Factor on dh/dt: ℬ/ℬ* below the training range, else 1."""
-        return 1.0 if self.nearest is None else min(1.0, self.B / self.nearest[0])
-
-    @classmethod
-    def of(cls, trajectory: Trajectory) -> "Start":
-        """The start of a stored trajectory: its first sample and its steady state."""
-        return cls(trajectory.B, trajectory.positions[0], trajectory.terminal, trajectory.terminal_velocity)
+from sedfiber.learning.start import Start
 
 
 class ForecastModel:

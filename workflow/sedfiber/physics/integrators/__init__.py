@@ -2,7 +2,8 @@
 
 from sedfiber.physics.integrators.base import Counters, March, Tolerances
 from sedfiber.physics.integrators.dopri5 import Dopri5
-from sedfiber.physics.integrators.implicit import BDFMarch, LSODAMarch, RadauMarch
+from sedfiber.physics.integrators.implicit import BDFMarch, RadauMarch
+from sedfiber.physics.integrators.lsoda import LSODAMarch
 from sedfiber.physics.integrators.stochastic import StochasticMidpoint
 
 # Those of deterministic scenes; noise has the stochastic one.
