@@ -1,4 +1,4 @@
-"""A trained model as a user meets it: ℬ, θ₀ and times in, bead positions out.
+"""A trained model as a user meets it: ℬ, θ₀ and times in, bead positions out; compiled, without torch.
 
 The terminal shape and velocity come from the series that lies beside the model, and from the
 steady solver outside the series' range, or where there is none. A fiber is the same with
@@ -6,15 +6,15 @@ its beads counted from the other end, so that a start beyond ±π/2 is forecast 
 """
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from sedfiber._typing import Array, History, Positions, Times
+from sedfiber.compiled.model import CompiledModel, load_compiled
 from sedfiber.errors import InputError
-from sedfiber.learning.forecast import ForecastModel
-from sedfiber.learning.model_files import load_forecast_model
 from sedfiber.learning.start import Start
 from sedfiber.physics.settling import SETTLED, distance_to_terminal, settling_time
 from sedfiber.physics.steady import steady_state
@@ -37,7 +37,7 @@ FAR = 5e-3
 class Forecaster:
     """A loaded model; ``model.scales`` holds the range it was trained on."""
 
-    def __init__(self, model: ForecastModel, curve: TerminalCurve | None = None, hydrodynamics: str = "RPY"):
+    def __init__(self, model: CompiledModel, curve: TerminalCurve | None = None, hydrodynamics: str = "RPY"):
         self.model, self.curve = model, curve
         self.hydrodynamics = hydrodynamics if curve is None else curve.hydrodynamics
 
@@ -76,13 +76,31 @@ class Forecaster:
         facts["model"]["warnings"] += _doubts_about_the_end(t, distance, settled, t_end)
         return Trajectory(t[:keep], positions[:keep], facts | {"settling_time": settled})
 
+    def sweep(
+        self,
+        B: Sequence[float],
+        theta0: Sequence[float],
+        interval: float,
+        counts: Sequence[int],
+        out: Array | None = None,
+        dtype: type = np.float64,
+    ) -> tuple[Array, Array]:
+        """Many straight starts at once: positions in the plane (sum counts, N, 2), and where each begins (S + 1,).
+
+        Start s has ℬ ``B[s]``, inclination ``theta0[s]`` and ``counts[s]`` samples, ``interval`` apart from
+        time 0 on. Writing to an ``out`` that was written to before saves the most time: fresh memory takes
+        longer than the forecasts. A start beyond ±π/2 has its beads counted from the left. Raises as `forecast`.
+        """
+        starts = [self.start(*one) for one in zip(B, theta0, strict=True)]
+        return self.model.sweep(starts, interval, counts, out, dtype)
+
     def warnings(self, B: float, theta0: float, shape: Any = None) -> list[str]:
         """Why a forecast of this start is not to be relied on; empty within the training range."""
         scene = self._scene(B, theta0, shape)
         return self._doubts_about_the_start(scene, self._start(scene))
 
     def start(self, B: float, theta0: float, shape: Any = None) -> Start:
-        """What the model starts from, for `ForecastModel.forecast_many`: the first bead is the left end."""
+        """What the model starts from, for `CompiledModel.forecast_many`: the first bead is the left end."""
         return self._start(self._scene(B, theta0, shape))
 
     def covers(self, B: float, theta0: float) -> bool:
@@ -96,10 +114,12 @@ class Forecaster:
 
     def _scene(self, B: float, theta0: float, shape: Any) -> Scene:
         facts = {"n_beads": self.model.scales.n_beads, "hydrodynamics": self.hydrodynamics}
+        if shape is None:
+            return Scene(B, theta0, **facts)
         given = Scene(B, theta0, space="volume", shape=shape, **facts)
         if np.abs(given.start()[:, 2]).max() > _FLAT:
             raise InputError("shape: leaves the plane z = 0, in which the model was trained; give z = 0 for every bead")
-        rows = given.shape if given.shape is None or given.shape == "rest" else np.array(given.shape)[:, :2]
+        rows = given.shape if given.shape in (None, "rest") else np.array(given.shape)[:, :2]
         return Scene(B, theta0, shape=rows, **facts)
 
     def _start(self, scene: Scene) -> Start:
@@ -135,13 +155,13 @@ class Forecaster:
         return words
 
     def _metadata(self, scene: Scene, start: Start) -> dict:
-        autoencoder, warnings = self.model.autoencoder, self._doubts_about_the_start(scene, start)
+        warnings = self._doubts_about_the_start(scene, start)
         return {
             "kind": "forecast",
             **scene.facts(),
             "model": {
-                "variant": autoencoder.variant,
-                "latent_dim": autoencoder.latent_dim,
+                "variant": self.model.variant,
+                "latent_dim": self.model.latent_dim,
                 "trained_for": self.range_words(),
                 "within_training_range": not warnings,
                 "warnings": warnings,
@@ -152,7 +172,7 @@ class Forecaster:
 def load_model(folder: str | Path) -> Forecaster:
     """Load a forecast model, such as ``results/models/forecast``; raises InputError for anything else."""
     curve = Path(folder) / CURVE
-    return Forecaster(load_forecast_model(folder), read_terminal_curve(curve) if curve.exists() else None)
+    return Forecaster(load_compiled(folder), read_terminal_curve(curve) if curve.exists() else None)
 
 
 def _order(start: Array) -> int:

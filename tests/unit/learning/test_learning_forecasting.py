@@ -1,15 +1,18 @@
 """Forecasts as a user meets them, where the model was not trained: ranges, shapes, precision, companions."""
 
+import itertools
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
-import torch
 
 from sedfiber import InputError, Scene, simulate, steady_state
+from sedfiber.compiled.model import load_compiled
 from sedfiber.differences import largest_distance
 from sedfiber.forecasting import FAR, Forecaster, load_model
-from sedfiber.learning.forecast import ForecastModel
+from sedfiber.learning.model_files import load_forecast_model, save_forecast_model
 from sedfiber.physics.settling import distance_to_terminal
 
 N_BEADS, LENGTH = 7, 14.0
@@ -100,12 +103,13 @@ def test_starts_that_are_none_are_refused(forecaster, shape, words):
         forecaster.forecast(200.0, 0.3, [0.0, 1.0], shape)
 
 
-def test_a_forecast_that_ends_elsewhere_says_so(trained_model):
+def test_a_forecast_that_ends_elsewhere_says_so(trained_model, tmp_path):
     """A model whose rates are all zero never settles: it comes to rest where it starts."""
-    model = load_model(trained_model).model
+    model = load_forecast_model(trained_model)
     for tensor in (*model.node.parameters(), model.node.damping):
         tensor.data.zero_()
-    still = Forecaster(ForecastModel(model.autoencoder, model.node, 1e-7, 1e-9))
+    save_forecast_model(model, tmp_path, {})
+    still = load_model(tmp_path)
     settled = still.settle(200.0, 0.7)
     (words,) = settled.metadata["model"]["warnings"]
     assert settled.settling_time is None and words.startswith("the forecast comes to rest elsewhere: 0.")
@@ -120,20 +124,42 @@ def test_a_forecast_that_never_settles_says_so(forecaster, monkeypatch):
     assert words.startswith("the forecast has not settled by t=0.5: 0.")
 
 
-def test_alone_and_in_a_batch_agree(forecaster):
+def test_alone_in_a_sweep_and_by_torchdiffeq_agree(forecaster, trained_model):
     """Stiff and soft, steep and flat, and an arch; to 1e-6 L at every sample."""
     asked = [(B, theta0) for B in (10.0, 100.0, 400.0, 800.0) for theta0 in (0.0, 1.3, math.pi / 2)]
     starts = [*(forecaster.start(*one) for one in asked), forecaster.start(400.0, 0.3, ARCH)]
-    t = np.linspace(0.0, 400.0, 100)
-    together = forecaster.model.forecast_many(starts, t)
-    for start, one in zip(starts, together, strict=True):
-        assert largest_distance(one, forecaster.model.forecast_many([start], t)[0], LENGTH) < 1e-6
+    t = np.linspace(0.0, 400.0, 101)
+    alone = forecaster.model.forecast_many(starts, t)
+    swept, offsets = forecaster.model.sweep(starts, t[1], [len(t)] * len(starts))
+    batched = load_forecast_model(trained_model).forecast_many(starts, t)
+    for one, other, rows in zip(alone, batched, np.split(swept, offsets[1:-1]), strict=True):
+        assert largest_distance(one, other, LENGTH) < 1e-6
+        assert largest_distance(one[..., :2], rows, LENGTH) < 1e-6
 
 
-def test_float32_agrees_with_float64(forecaster):
-    """Its tolerances stay above its rounding; the difference is far below what counts as settled."""
-    exact = forecaster.model
-    rough = ForecastModel(exact.autoencoder, exact.node, 1e-12, 1e-12, torch.float32)
-    starts, t = [forecaster.start(B, 1.0) for B in (100.0, 400.0)], np.linspace(0.0, 400.0, 50)
-    for one, other in zip(exact.forecast_many(starts, t), rough.forecast_many(starts, t), strict=True):
-        assert 0.0 < largest_distance(one, other, LENGTH) < 1e-4
+def test_a_sweep_takes_what_a_single_forecast_takes(forecaster):
+    """ℬ and θ₀ as lists; samples of each start as many as were asked for; float32 far below what counts as settled."""
+    B, theta0, counts = [100.0, 400.0, 250.0], [0.3, 1.2, 0.0], [5, 40, 20]
+    positions, offsets = forecaster.sweep(B, theta0, 0.5, counts)
+    rough, _ = forecaster.sweep(B, theta0, 0.5, counts, dtype=np.float32)
+    assert list(offsets) == [0, 5, 45, 65] and positions.shape == rough.shape == (65, N_BEADS, 2)
+    for start, (low, high) in enumerate(itertools.pairwise(offsets)):
+        alone = forecaster.forecast(B[start], theta0[start], 0.5 * np.arange(counts[start]))
+        assert largest_distance(alone[..., :2], positions[low:high], LENGTH) < 1e-6
+        assert 0.0 < largest_distance(alone[..., :2], rough[low:high], LENGTH) < 1e-4
+
+
+def test_a_terminal_shape_comes_from_the_series_or_the_solver(forecaster, trained_model):
+    """The same start within the series' range with and without it, and beyond it from the solver alone."""
+    bare = Forecaster(load_compiled(trained_model))
+    for B in (100.0, 150.0, 400.0):
+        one, other = forecaster.start(B, 0.5), bare.start(B, 0.5)
+        assert np.abs(one.terminal - other.terminal).max() < 1e-9
+    assert np.array_equal(forecaster.start(401.0, 0.5).terminal, steady_state(401.0, N_BEADS).positions)
+
+
+def test_forecasting_needs_no_torch(trained_model):
+    """Not imported, directly or not: it takes seconds."""
+    words = f"import sys, sedfiber; sedfiber.load_model({str(trained_model)!r}).forecast(200, 0.5, [0.0, 1.0])"
+    done = subprocess.run([sys.executable, "-c", f"{words}; sys.exit('torch' in sys.modules)"], check=False)
+    assert done.returncode == 0

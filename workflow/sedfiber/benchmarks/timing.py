@@ -1,13 +1,15 @@
-"""One way of timing: in this process, warmed up, at least ten repeats, one thread."""
+"""One way of timing: in this process, warmed up, one thread, at least ten repeats of all but long runs."""
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
 REPEATS = 10
-_LEAST = 2e-3  # s: calls are bundled until a repeat lasts this long, far above the clock's grain
+FEW = 3  # repeats of a run that takes long
+LONG, VERY_LONG = 1.0, 5.0  # s: runs from here on are repeated a few times, and not at all
+LEAST = 2e-3  # s: calls are bundled until a repeat lasts this long, far above the clock's grain
 
 
 @dataclass(frozen=True)
@@ -19,6 +21,26 @@ class Timing:
     spread: float
 
 
+@dataclass(frozen=True)
+class RunTiming(Timing):
+    """Timing of a whole run of ``repeats`` repeats, of a short call ``beside`` it, and what the run returned."""
+
+    repeats: int
+    beside: Timing
+    returned: object
+
+    @property
+    def columns(self) -> dict[str, float]:
+        """The same four columns in every table of costs."""
+        return seconds_columns(self, self.repeats)
+
+
+def seconds_columns(timing: Timing, repeats: int) -> dict[str, float]:
+    """``seconds_least``, ``seconds_median``, ``seconds_spread`` and ``repeats``."""
+    names = ("least", "median", "spread")
+    return {f"seconds_{name}": getattr(timing, name) for name in names} | {"repeats": repeats}
+
+
 def timed(call: Callable[[], object], repeats: int = REPEATS) -> Timing:
     """Time ``call``; what it costs to bundle calls in a loop, about 30 ns each, is in the figure."""
     return timed_together([call], repeats)[0]
@@ -27,18 +49,39 @@ def timed(call: Callable[[], object], repeats: int = REPEATS) -> Timing:
 def timed_together(calls: list[Callable[[], object]], repeats: int = REPEATS) -> list[Timing]:
     """Time several calls turn and turn about, so that a busy machine slows all of them alike."""
     bundles = [_bundle(call) for call in calls]
-    seconds = np.array([[_seconds(call, n) for call, n in zip(calls, bundles, strict=True)] for _ in range(repeats)])
-    quartiles = np.percentile(seconds, [25, 75], axis=0)
-    spreads = quartiles[1] - quartiles[0]
-    columns = (seconds.min(axis=0), np.median(seconds, axis=0), spreads)
-    return [Timing(*map(float, values)) for values in zip(*columns, strict=True)]
+    rounds = [[_seconds(call, n) for call, n in zip(calls, bundles, strict=True)] for _ in range(repeats)]
+    return [_timing(seconds) for seconds in zip(*rounds, strict=True)]
+
+
+def timed_run(run: Callable[[], object], beside: Callable[[], object]) -> RunTiming:
+    """Time a whole run, turn and turn about with a short call beside it.
+
+    The first run warms up, and ten follow.  One of a second or more needs no warming up: it counts,
+    with two more; one of more than 5 s counts alone.
+    """
+    start = time.perf_counter()
+    returned = run()
+    first = time.perf_counter() - start
+    seconds = [] if first < LONG else [first]
+    n = REPEATS if first < LONG else FEW if first <= VERY_LONG else 1
+    bundle, turns = _bundle(beside), -(-REPEATS // n)  # no fewer than ten of the short call
+    short = [_seconds(beside, bundle) for _ in range(turns * len(seconds))]
+    while len(seconds) < n:
+        seconds.append(_seconds(run, 1))
+        short += [_seconds(beside, bundle) for _ in range(turns)]
+    return RunTiming(**asdict(_timing(seconds)), repeats=n, beside=_timing(short), returned=returned)
+
+
+def _timing(seconds: Sequence[float]) -> Timing:
+    first, median, third = np.percentile(seconds, [25, 50, 75])
+    return Timing(float(min(seconds)), float(median), float(third - first))
 
 
 def _bundle(call: Callable[[], object]) -> int:
     """Calls in one repeat; the first calls warm up."""
     call()
     n = 1
-    while _seconds(call, n) * n < _LEAST:
+    while _seconds(call, n) * n < LEAST:
         n *= 2
     return n
 

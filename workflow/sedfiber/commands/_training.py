@@ -31,18 +31,18 @@ def seed_of(args: argparse.Namespace) -> int:
     return whole_number("seed", args.seed, "a whole number from 0 up")
 
 
-def settings_of(args: argparse.Namespace, kind: type[Settings]) -> Settings:
-    """``--settings`` as the dataclass ``kind``; lists become tuples; unknown keys are refused."""
+def settings_of(text: str, kind: type[Settings], option: str = "settings") -> Settings:
+    """The JSON object of ``option`` as the dataclass ``kind``; lists become tuples; unknown keys are refused."""
     try:
-        values = json.loads(args.settings)
+        values = json.loads(text)
     except ValueError as error:
-        raise InputError(f"settings: not a JSON object ({error})") from None
+        raise InputError(f"{option}: not a JSON object ({error})") from None
     if not isinstance(values, dict):
-        raise InputError("settings: not a JSON object; give one such as {}")
+        raise InputError(f"{option}: not a JSON object; give one such as {{}}")
     known = {field.name for field in fields(kind)}
     for key in values:
         if key not in known:
-            raise InputError(f"settings: unknown key {key!r}; keys are {', '.join(sorted(known))}")
+            raise InputError(f"{option}: unknown key {key!r}; keys are {', '.join(sorted(known))}")
     return kind(**{key: _hashable(value) for key, value in values.items()})
 
 

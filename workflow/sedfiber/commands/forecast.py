@@ -31,7 +31,7 @@ def run(args: argparse.Namespace) -> None:
     interval = positive_number("interval", args.interval)
     t_end = None if args.t_end is None else positive_number("t_end", args.t_end)
     require_writable(args.output)
-    from sedfiber.forecasting import load_model  # torch takes seconds: bad input fails before it
+    from sedfiber.forecasting import load_model  # its imports take a second: bad input fails before it
 
     shape = None if args.shape is None else {"file": args.shape}
     trajectory = load_model(args.model).settle(scene.B, scene.theta0, interval, t_end, shape)

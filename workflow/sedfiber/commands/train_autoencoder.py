@@ -26,7 +26,7 @@ def run(args: argparse.Namespace) -> None:
     torch.set_num_threads(1)
     variant = one_of("variant", args.variant, VARIANTS)
     latent_dim = whole_number("latent_dim", args.latent_dim, "a whole number from 1 up", 1)
-    seed, settings = seed_of(args), settings_of(args, AutoencoderSettings)
+    seed, settings = seed_of(args), settings_of(args.settings, AutoencoderSettings)
     training = read_dataset(args.dataset, args.terminal_shapes)
     require_folder(args.output)
     model = train_autoencoder(training, variant, latent_dim, seed, settings, say)

@@ -30,7 +30,7 @@ def run(args: argparse.Namespace) -> None:
     """Train and write a folder that holds all that a forecast needs."""
     torch.set_num_threads(1)
     train, kind = RECIPES[one_of("recipe", args.recipe, RECIPES)]
-    seed, settings = seed_of(args), settings_of(args, kind)
+    seed, settings = seed_of(args), settings_of(args.settings, kind)
     autoencoder = load_autoencoder(args.autoencoder)
     training = read_dataset(args.dataset, args.terminal_shapes)
     require_folder(args.output)

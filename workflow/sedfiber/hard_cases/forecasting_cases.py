@@ -11,15 +11,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 
-from sedfiber._typing import History, Positions
+from sedfiber._typing import Array, History, Positions, Times
 from sedfiber.cli import main
 from sedfiber.differences import largest_distance
 from sedfiber.errors import NumericalError
 from sedfiber.forecasting import Forecaster, load_model
 from sedfiber.hard_cases.case import Measurement, must_refuse, yes_or_no
-from sedfiber.learning.forecast import ForecastModel
+from sedfiber.learning.model_files import load_forecast_model
 from sedfiber.physics.settling import SETTLED, distance_to_terminal
 from sedfiber.physics.steady import steady_state
 
@@ -77,36 +76,49 @@ def forecast_far_shape(model: Path) -> Iterable[Measurement]:
 
 
 def forecast_single_and_batched(model: Path) -> Iterable[Measurement]:
-    """Starts of all kinds in one batch, which share their time step, and each one alone."""
-    forecaster = load_model(model)
+    """Starts of all kinds alone, in one sweep, and by torchdiffeq, which the model was judged with."""
+    forecaster, judged = load_model(model), load_forecast_model(model)
     B_values, shapes = _B_values(forecaster), _far_shapes(forecaster.model.scales.n_beads)
     asked = [(B, theta0, None) for B, theta0 in _grid(forecaster)]
     asked += [(BELOW[0] * B_values[0], math.pi / 2, None), *((B_values[-1], 0.3, shape) for shape in shapes.values())]
     starts, t = [forecaster.start(*one) for one in asked], _long_times(forecaster)
-    together = forecaster.model.forecast_many(starts, t)
-    alone = (forecaster.model.forecast_many([start], t)[0] for start in starts)
-    length = 2.0 * forecaster.model.scales.n_beads
-    apart = [largest_distance(one, other, length) for one, other in zip(alone, together, strict=True)]
-    yield Measurement(f"{len(starts)} starts: distance between alone and together, L", max(apart), 1e-6)
+    alone, length = forecaster.model.forecast_many(starts, t), 2.0 * forecaster.model.scales.n_beads
+    swept, _ = forecaster.model.sweep(starts, t[1], [len(t)] * len(starts))
+    together = np.pad(swept.reshape(*alone.shape[:-1], 2), ((0, 0), (0, 0), (0, 0), (0, 1)))
+    what = f"{len(starts)} starts: distance between alone and"
+    yield Measurement(f"{what} in a sweep, L", _farthest(alone, together, length), 1e-6)
+    torchdiffeq = np.concatenate([judged.forecast_many([start], t) for start in starts])
+    yield Measurement(f"{what} by torchdiffeq, L", _farthest(alone, torchdiffeq, length), 1e-6)
+    batched = judged.forecast_many(starts, t)
+    yield Measurement(f"{what} by torchdiffeq in one batch, L", _farthest(alone, batched, length), 1e-6)
 
 
 def forecast_float32(model: Path) -> Iterable[Measurement]:
     """The same networks in both precisions, over the whole training range."""
     forecaster = load_model(model)
-    exact, t = forecaster.model, _long_times(forecaster)
-    rough = ForecastModel(exact.autoencoder, exact.node, exact.rtol, exact.atol, torch.float32)
-    grid = list(_grid(forecaster))
-    starts = [forecaster.start(B, theta0) for B, theta0 in grid]
-    fine, coarse = exact.forecast_many(starts, t), rough.forecast_many(starts, t)
-    length = 2.0 * exact.scales.n_beads
+    grid, t = list(_grid(forecaster)), _long_times(forecaster)
+    fine, coarse = (_swept(forecaster, grid, t, dtype) for dtype in (np.float64, np.float32))
+    length = 2.0 * forecaster.model.scales.n_beads
     apart = [largest_distance(one, other, length) for one, other in zip(coarse, fine, strict=True)]
     tilted = [value for value, (_, theta0) in zip(apart, grid, strict=True) if theta0 == 0.0]
     steep = [value for value, (_, theta0) in zip(apart, grid, strict=True) if theta0 != 0.0]
     yield Measurement("distance between float32 and float64, L", max(steep), ROUNDED)
     note = "at high B the fiber leaves the unstable W, which multiplies rounding; the bound is E = 1e-4"
     yield Measurement("the same from theta0 = 0, L", max(tilted), ACCURATE, note)
-    ends = [_distance(forecaster, start.B, x[-1:])[-1] for start, x in zip(starts, coarse, strict=True)]
+    ends = [_distance(forecaster, B, x[-1:])[-1] for (B, _), x in zip(grid, coarse, strict=True)]
     yield Measurement(f"float32: {END}", max(ends), SETTLED)
+
+
+def _swept(forecaster: Forecaster, grid: list[tuple[float, float]], t: Times, dtype: type) -> History:
+    """Positions (S, T, N, 3) of a sweep in one precision."""
+    B, theta0 = zip(*grid, strict=True)
+    rows, _ = forecaster.sweep(B, theta0, t[1], [len(t)] * len(grid), dtype=dtype)
+    return np.pad(rows.astype(float).reshape(len(grid), len(t), -1, 2), ((0, 0), (0, 0), (0, 0), (0, 1)))
+
+
+def _farthest(one: Array, other: Array, length: float) -> float:
+    """The largest distance at any sample of any start, over L."""
+    return max(largest_distance(*pair, length) for pair in zip(one, other, strict=True))
 
 
 def _B_values(forecaster: Forecaster) -> list[float]:

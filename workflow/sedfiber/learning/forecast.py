@@ -29,23 +29,12 @@ from sedfiber.learning.start import Start
 
 
 class ForecastModel:
-    """Autoencoder and neural ODE, for inference in ``dtype``.
+    """Autoencoder and neural ODE, for inference in float64 at dopri5's tolerances ``rtol`` and ``atol`` (L/2)."""
 
-    dopri5 works at the tolerances ``rtol`` and ``atol`` (L/2), but never below 10 roundings of
-    ``dtype``: a smaller error of a step is not measurable.
-    """
-
-    def __init__(
-        self,
-        autoencoder: Autoencoder,
-        node: NeuralOde,
-        rtol: float,
-        atol: float,
-        dtype: torch.dtype = torch.float64,
-    ) -> None:
-        self.autoencoder, self.node, self.rtol, self.atol, self.dtype = autoencoder, node, rtol, atol, dtype
-        self._encoder = copy.deepcopy(autoencoder).to(dtype).requires_grad_(False)
-        self._node = copy.deepcopy(node).to(dtype).requires_grad_(False)
+    def __init__(self, autoencoder: Autoencoder, node: NeuralOde, rtol: float, atol: float) -> None:
+        self.autoencoder, self.node, self.rtol, self.atol = autoencoder, node, rtol, atol
+        self._encoder = copy.deepcopy(autoencoder).double().requires_grad_(False)
+        self._node = copy.deepcopy(node).double().requires_grad_(False)
 
     @property
     def scales(self) -> Scales:
@@ -89,11 +78,11 @@ class ForecastModel:
 
     def _latent(self, starts: Sequence[Start], context: Tensor) -> Tensor:
         residual = np.stack([self.scales.residual(start.initial, start.terminal) for start in starts])
-        return self._encoder.encode(torch.tensor(residual, dtype=self.dtype), context)
+        return self._encoder.encode(torch.tensor(residual, dtype=torch.float64), context)
 
     def _pace(self, starts: Sequence[Start]) -> Tensor:
         """Factors on the rates of h and of the drift, (S, d + 2)."""
-        pace = torch.tensor([[start.pace] for start in starts], dtype=self.dtype)
+        pace = torch.tensor([[start.pace] for start in starts], dtype=torch.float64)
         return nn.functional.pad(pace.expand(-1, self._node.latent_dim), (0, N_CENTRE), value=1.0)
 
     def _integrate(self, h: Tensor, context: Tensor, pace: Tensor, t: Times) -> tuple[Tensor, Tensor]:
@@ -104,14 +93,13 @@ class ForecastModel:
         times = torch.tensor(np.concatenate([np.zeros(skipped), t]))
         if len(times) == 1:
             return state[None, :, :d], state[None, :, d:]
-        rounding = 10 * torch.finfo(self.dtype).eps
         try:
             states = odeint(
                 lambda _, y: pace * self._node(y[:, :d], context, rest),
                 state,
                 times,
-                rtol=max(self.rtol, rounding),
-                atol=max(self.atol, rounding),
+                rtol=self.rtol,
+                atol=self.atol,
                 method="dopri5",
                 options={"norm": _worst_of_starts},
             )[skipped:]

@@ -1,0 +1,330 @@
+"""What accuracy costs: the tables count, compare and list what they promise.  Nothing here depends on seconds."""
+
+import time
+
+import numpy as np
+import pandas as pd
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import RK45
+
+from problems import bent_chain, system_of
+from sedfiber import Scene, simulate
+from sedfiber.angles import angle_of
+from sedfiber.benchmarks.machine import machine, unit
+from sedfiber.benchmarks.source_setup import SourceSetup, forces
+from sedfiber.benchmarks.timing import FEW, REPEATS, timed_run
+from sedfiber.cli import main
+from sedfiber.costs import discretisation, integrators
+from sedfiber.costs.discretisation import GROWTH_COLUMNS, cost_growth, curve_distance, measure_discretisation
+from sedfiber.costs.falls import Fall, OutOfTime
+from sedfiber.costs.integrators import measure_integrators
+from sedfiber.costs.methods import METHODS, by_solve_ivp
+from sedfiber.costs.power_law import fit_power_law
+from sedfiber.costs.trajectories import measure_trajectories
+from sedfiber.differences import largest_distance
+from sedfiber.errors import NumericalError
+from sedfiber.numerics import Numerics
+
+SECONDS = ["seconds_least", "seconds_median", "seconds_spread", "repeats"]
+COUNTS = ["steps", "rhs", "jacobians", "factorisations"]
+ENDS = ["machine", "rhs_unit_s"]
+LADDER = (1e-3, 1e-5, 1e-7)
+FEW_BEADS, SOFT, ANGLE = 7, 300.0, 5  # a fall that takes a few milliseconds
+
+
+@pytest.fixture(scope="module")
+def compared():
+    """All methods over the fall of seven beads."""
+    return pd.DataFrame(measure_integrators(SOFT, ANGLE, LADDER, n_beads=FEW_BEADS))
+
+
+@pytest.fixture(scope="module")
+def discretised():
+    """Few beads, in all mobilities."""
+    return measure_discretisation((5, 9, 11, 15))
+
+
+def one(table, method, jacobian, tolerance):
+    """The one row of a method."""
+    rows = table[(table.method == method) & (table.jacobian == jacobian) & np.isclose(table.tolerance, tolerance)]
+    assert len(rows) == 1
+    return rows.iloc[0]
+
+
+def short_fall(n_beads=FEW_BEADS, samples=21):
+    """The first ten a/U_s of the same fall."""
+    return Fall(Scene(SOFT, angle_of(ANGLE), n_beads), samples)
+
+
+# the source's set-up
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_sources_right_hand_side_is_ours(seed):
+    """Written from the text alone, in absolute coordinates: equal to round-off at a bent state in volume."""
+    n_beads, B = 11, 1000.0
+    system = system_of("volume", n_beads=n_beads)
+    x = bent_chain(seed, n_beads)
+    theirs = SourceSetup(24.0 * n_beads**3 / B).rhs(0.0, x.ravel()).reshape(-1, 3)
+    expected = system.velocity(x)
+    assert_allclose(theirs, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
+    ours = system.rhs(0.0, system.to_state(x))[:-1].reshape(-1, 3)
+    relative = theirs - theirs[n_beads // 2]
+    relative[n_beads // 2] = theirs[n_beads // 2]
+    assert_allclose(relative, ours, rtol=0, atol=1e-12 * np.abs(expected).max())
+
+
+def test_the_sources_forces_of_a_fiber_at_rest_are_its_weight():
+    """Straight and touching: no spring and no bend pulls."""
+    x = np.zeros((5, 3))
+    x[:, 0] = 2.0 * np.arange(5)
+    assert_allclose(forces(x, 100.0), np.tile([0.0, -1.0, 0.0], (5, 1)), rtol=0, atol=1e-13)
+
+
+def test_the_sources_run_agrees_with_ours():
+    """1e-6 L over a sample that takes several calls, which give up after 500 steps and are made again."""
+    fall = Fall(Scene(50.0, angle_of(ANGLE), 31), 2)
+    theirs = SourceSetup(fall.scene.modulus).run(fall.start_positions, fall.samples)
+    assert theirs.positions.shape == (2, 31, 3)
+    assert theirs.steps > 500
+    assert 6 * theirs.steps <= theirs.rhs
+    ours = fall.by_numerics(Numerics(rtol=1e-10, atol=1e-10)).positions
+    assert 0.0 < largest_distance(theirs.positions, ours, fall.scene.length) < 1e-6
+
+
+def test_the_sources_run_stops_at_its_limit():
+    """With no time at all it has its start; the counters start anew with each run."""
+    fall = short_fall()
+    setup = SourceSetup(fall.scene.modulus)
+    whole = setup.run(fall.start_positions, 5)
+    assert len(setup.run(fall.start_positions, 5, seconds=0.0).positions) == 1
+    again = setup.run(fall.start_positions, 5)
+    assert (again.rhs, again.steps) == (whole.rhs, whole.steps)
+
+
+# timing
+
+
+def test_short_runs_are_repeated_ten_times_and_long_ones_three(monkeypatch):
+    """The first run says which: below a second, here none at all, it warms up; from there on it counts."""
+    calls = []
+    short = timed_run(lambda: calls.append("run") or "result", lambda: None)
+    assert (short.repeats, calls.count("run"), short.returned) == (REPEATS, REPEATS + 1, "result")
+    calls.clear()
+    monkeypatch.setattr("sedfiber.benchmarks.timing.LONG", 0.0)
+    long = timed_run(lambda: calls.append("run"), lambda: None)
+    assert (long.repeats, calls.count("run")) == (FEW, FEW)
+    assert 0.0 <= long.least <= long.median and long.spread >= 0.0
+    assert list(long.columns) == SECONDS
+
+
+def test_a_very_long_run_is_not_repeated(monkeypatch):
+    """Above 5 s, here 10 ms, one run is all."""
+    monkeypatch.setattr("sedfiber.benchmarks.timing.LONG", 0.01)
+    monkeypatch.setattr("sedfiber.benchmarks.timing.VERY_LONG", 0.01)
+    calls = []
+    assert timed_run(lambda: calls.append(time.sleep(0.02)), lambda: None).repeats == len(calls) == 1
+
+
+def test_the_machine_is_one_line_and_the_unit_a_time():
+    """Processor, threads and versions; microseconds."""
+    assert "\n" not in machine() and "NumPy" in machine() and "thread" in machine()
+    assert unit() > 0.0
+
+
+# integrators
+
+
+def test_integrators_table_has_its_columns(compared):
+    """In their order, a row for every method and rung of its ladder, all of which ran."""
+    facts = ["B", "angle_index", "theta0", "method", "jacobian", "tolerance", "error"]
+    ends = ["fraction_of_fall", "seconds_whole_fall", "status", "reference_agreement", *ENDS]
+    assert list(compared) == [*facts, *SECONDS, *COUNTS, "rhs_units", *ends]
+    assert len(compared) == sum(len(method.ladder(list(LADDER))) for method in METHODS)
+    assert (compared.status == "ok").all() and (compared.repeats >= FEW).all()
+    assert (compared.fraction_of_fall == 1.0).all()
+    assert (compared.reference_agreement < 1e-9).all()
+
+
+def test_integrators_count_what_they_do(compared):
+    """Steps cost right-hand sides; a Jacobian by differences costs one for each coordinate."""
+    assert (compared.steps > 0).all() and (compared.rhs >= compared.steps).all()
+    for method in ("LSODA", "LSODA (solve_ivp)", "BDF", "Radau"):
+        analytic, differences = (one(compared, method, jacobian, 1e-3) for jacobian in ("analytic", "differences"))
+        assert 0 < analytic.jacobians <= analytic.factorisations
+        assert differences.rhs > analytic.rhs + FEW_BEADS * differences.jacobians
+    explicit = compared[compared.jacobian == "none"]
+    assert (explicit[["jacobians", "factorisations"]] == 0).all(axis=None)
+
+
+@pytest.mark.parametrize("method", ["LSODA", "BDF", "Radau"])
+def test_error_falls_with_the_tolerance(compared, method):
+    """In proportion or a little slower, and no method is far above its tolerance."""
+    rows = compared[(compared.method == method) & (compared.jacobian == "analytic")]
+    slope = np.polyfit(np.log(rows.tolerance), np.log(rows.error), 1)[0]
+    assert 0.6 < slope < 1.4
+    assert (rows.error < 10 * rows.tolerance).all()
+
+
+def test_what_takes_too_long_is_a_row():
+    """With a limit of no time every method stops, and its tighter tolerances are not tried; the source has a part."""
+    table = pd.DataFrame(measure_integrators(SOFT, ANGLE, LADDER, limit=1e-9, source_limit=0.01, n_beads=FEW_BEADS))
+    ours = table[table.method != "source"]
+    loosest = ours.groupby(["method", "jacobian"]).head(1)
+    assert loosest.status.str.contains("takes longer than 1e-09 s").all() and (loosest.seconds_least > 0).all()
+    others = ours.drop(loosest.index)
+    assert len(others) and others.status.str.contains("not tried: takes too long already at 1e-03").all()
+    assert ours.error.isna().all() and ours.rhs.isna().all()
+    source = table[table.method == "source"].iloc[0]
+    assert source.status == "ok" and 0.0 < source.fraction_of_fall < 1.0 and source.error < 1e-5
+    assert_allclose(source.seconds_whole_fall, source.seconds_least / source.fraction_of_fall)
+
+
+@pytest.mark.parametrize(
+    "outcome, status",
+    [(NumericalError("LSODA: stuck"), "LSODA: stuck"), (ValueError("infs or NaNs"), "infs or NaNs"), (None, "success")],
+)
+def test_what_fails_is_a_row_with_its_reason(monkeypatch, outcome, status):
+    """A method that raises, SciPy's errors among them, or that reports success and is 1 L off."""
+    method = METHODS[0]
+
+    def integrate(fall, tolerance, seconds):
+        if outcome is not None:
+            raise outcome
+        run = method.integrate(fall, tolerance, seconds)
+        return type(run)(run.positions + fall.scene.length, run.counters)
+
+    broken = type(method)("broken", "analytic", integrate)
+    monkeypatch.setattr(integrators, "METHODS", (broken,))
+    rows = measure_integrators(SOFT, ANGLE, (1e-3, 1e-5), n_beads=FEW_BEADS)
+    assert len(rows) == 2 and all(status in row["status"] for row in rows)
+    assert all(row["seconds_least"] > 0 for row in rows)
+
+
+def test_a_run_out_of_time_says_how_far_it_came():
+    """Marches look at the clock after each sample, SciPy's solvers before each step."""
+    fall = short_fall()
+    with pytest.raises(OutOfTime) as stopped:
+        METHODS[0].integrate(fall, 1e-6, 0.0)
+    assert 0.0 <= stopped.value.t < fall.times[-1]
+    with pytest.raises(OutOfTime):
+        by_solve_ivp(RK45, "none", fall, 1e-6, 0.0)
+
+
+# trajectories
+
+
+def test_trajectories_table():
+    """A row for each run and tolerance; the tighter one is the nearer and takes more."""
+    rows = measure_trajectories([(SOFT, 2), (100.0, ANGLE)], (1e-4, 1e-7), FEW_BEADS)
+    table = pd.DataFrame(rows)
+    facts = ["B", "angle_index", "theta0", "settling_time", "samples", "tolerance", "error"]
+    assert list(table) == [*facts, *SECONDS, *COUNTS, "rhs_units", "simulate_seconds", *ENDS]
+    assert table[["B", "angle_index"]].drop_duplicates().values.tolist() == [[SOFT, 2], [100.0, ANGLE]]
+    loose, tight = table[table.tolerance == 1e-4], table[table.tolerance == 1e-7]
+    assert (tight.error.values < loose.error.values).all() and (tight.steps.values > loose.steps.values).all()
+    assert (table.error < 10 * table.tolerance).all() and (table.repeats >= FEW).all()
+    run = simulate(Scene(SOFT, angle_of(2), FEW_BEADS))
+    assert table.settling_time[0] == run.settling_time and table.samples[0] == len(run.t)
+
+
+# discretisation
+
+
+def test_discretisation_table(discretised):
+    """Shapes come nearer to the finest; free draining falls straight; what is refused says why."""
+    table = pd.DataFrame(discretised).set_index(["hydrodynamics", "n_beads"])
+    ours = table.loc["RPY"].loc[[9, 11, 15]]
+    assert (ours.status == "ok").all() and (np.diff(ours.shape_from_finest_L) < 0).all()
+    assert ours.shape_from_finest_L[15] < 1e-15 and (ours.shape_from_RPY_L < 1e-15).all()
+    assert (np.diff(ours.speed) > 0).all() and (ours[["rhs_s", "jacobian_s", "lu_s"]] > 0).all(axis=None)
+    run = simulate(Scene(1000.0, angle_of(12), 11))
+    assert_allclose(ours.speed[11], np.linalg.norm(run.centre[-1] - run.centre[-2]) / 0.5, rtol=1e-2)
+    assert (table.loc["RPY-overlap"].shape_from_RPY_L.dropna() < 1e-4).all()
+    free = table.loc["none"].loc[[9, 11, 15]]
+    assert_allclose(free.speed, 1.0, rtol=1e-9)
+    assert free.settling_time.isna().all() and (free.shape_from_finest_L < 1e-9).all()
+    assert (free.t_end == ours.t_end).all() and (free.shape_from_RPY_L > 0.1).all()
+    assert "does not settle" in table.status["none", 5] and "B=1000" in table.status["RPY", 5]
+    assert table.loc["Oseen"].status.str.contains("positive definite").any()
+
+
+def test_curve_distance_is_zero_on_one_curve_and_the_offset_elsewhere():
+    """Beads of two chains on one arc lie on it to the spline's error; a shift shows in full."""
+
+    def arc(n):
+        s = (np.arange(n) - n // 2) / n
+        return np.column_stack([np.sin(s), 1.0 - np.cos(s), 0.0 * s])
+
+    assert curve_distance(arc(11), arc(101)) < 1e-8
+    assert_allclose(curve_distance(arc(11) + np.array([0.0, 0.0, 0.3]), arc(101)), 0.3, rtol=1e-9)
+
+
+def test_a_power_law_is_recovered():
+    """Exactly where there is no scatter; within its standard error, of the right size, where there is."""
+    beads = np.array([61, 91, 121, 201, 301])
+    exact = fit_power_law(beads, 3e-9 * beads**2.5)
+    assert_allclose((exact.exponent, exact.prefactor), (2.5, 3e-9))
+    assert exact.standard_error < 1e-9
+    rng = np.random.default_rng(0)
+    fits = [fit_power_law(beads, 3e-9 * beads**2.5 * np.exp(0.1 * rng.normal(size=5))) for _ in range(400)]
+    scatter = np.std([fit.exponent for fit in fits])
+    assert_allclose(np.sqrt(np.mean([fit.standard_error**2 for fit in fits])), scatter, rtol=0.15)
+
+
+def test_growth_of_cost(discretised):
+    """Every cost of every mobility that ran; none where there are fewer than three N."""
+    grown = pd.DataFrame(cost_growth(discretised, start=9))
+    assert list(grown) == GROWTH_COLUMNS
+    assert set(grown.hydrodynamics) >= {"RPY", "RPY-overlap", "none"}
+    assert grown[grown.hydrodynamics == "RPY"].quantity.tolist() == list(discretisation._QUANTITIES)
+    assert (grown.N_from == 9).all() and (grown.N_to == 15).all()
+    assert cost_growth(discretised, start=13) == []
+
+
+# commands
+
+
+def sedfiber(*words):
+    """Exit status of the command."""
+    return main([str(word) for word in words])
+
+
+def test_commands_write_their_tables(tmp_path, monkeypatch, capsys):
+    """Counts as whole numbers, also beside rows without any."""
+    monkeypatch.setattr(integrators, "METHODS", METHODS[:1])
+    paths = [tmp_path / f"{name}.csv" for name in "abcd"]
+    fall = ("--B", SOFT, "--angle-index", ANGLE, "--n-beads", FEW_BEADS)
+    assert sedfiber("measure_integrators", *fall, "--tolerances", "1e-3", "1e-5", "-o", paths[0]) == 0
+    grids = ("--B", 300, 100, "--angle-index", 2, "--B", 200, "--angle-index", 3, 5)
+    assert sedfiber("measure_trajectories", *grids, "--n-beads", 7, "--tolerances", "1e-4", "-o", paths[1]) == 0
+    assert sedfiber("measure_discretisation", "--n-beads", 5, 9, "-o", paths[2], "--growth", paths[3]) == 0
+    tables = [pd.read_csv(path) for path in paths]
+    assert [len(table) for table in tables] == [2, 4, 8, 0]
+    assert tables[1][["B", "angle_index"]].values.tolist() == [[300, 2], [100, 2], [200, 3], [200, 5]]
+    steps = pd.read_csv(paths[2], dtype=str).steps
+    assert all(value.isdigit() for value in steps.dropna()) and steps.isna().any()
+
+
+@pytest.mark.parametrize(
+    "command, words, named",
+    [
+        ("measure_integrators", ["--B", "0", "--angle-index", "3"], "B"),
+        ("measure_integrators", ["--B", "100", "--angle-index", "99"], "angle_index"),
+        ("measure_integrators", ["--B", "100", "--angle-index", "3", "--tolerances", "2"], "tolerances"),
+        ("measure_integrators", ["--B", "100", "--angle-index", "3", "--limit", "nan"], "limit"),
+        ("measure_trajectories", ["--B", "100", "--angle-index", "3", "--B", "200"], "angle_index"),
+        ("measure_trajectories", ["--B", "100", "--angle-index", "3", "--tolerances", "1e-11"], "tolerances"),
+        ("measure_discretisation", ["--n-beads", "4", "--growth", "growth.csv"], "n_beads"),
+        ("measure_discretisation", ["--growth", "missing/growth.csv"], "output"),
+        ("measure_discretisation", ["--growth", "out.csv"], "growth"),
+    ],
+)
+def test_commands_refuse_in_one_line(tmp_path, monkeypatch, capsys, command, words, named):
+    """Before any work is done, naming the key."""
+    monkeypatch.chdir(tmp_path)
+    assert sedfiber(command, *words, "-o", "out.csv") == 1
+    said = capsys.readouterr().err
+    assert said.startswith(f"sedfiber {command}: {named}: ") and said.count("\n") == 1
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,71 @@
+"""What one start makes of the tables: its latent state, and both networks at its ℬ."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from sedfiber._typing import Array, Positions
+from sedfiber.compiled.bead_path import Shapes
+from sedfiber.compiled.latent_path import Dynamics
+from sedfiber.compiled.perceptron import Network, one
+from sedfiber.compiled.tables import Tables
+
+
+class Origin(NamedTuple):
+    """A start as the kernels take it; see `learning.start`.
+
+    ``encoder`` (d, 3N) takes shapes in ``a`` to h, ``b`` is the scaled ln ℬ that the networks are
+    asked at, and ``anchor`` (N, 3) is the terminal shape there.
+    """
+
+    encoder: Array
+    b: float
+    anchor: Positions
+    initial: Positions
+    terminal: Positions
+    velocity: Array
+    pace: float
+
+
+@njit(cache=True)
+def first_state(origin: Origin) -> Array:
+    """State [h, 0, 0] (d + 2,) at time 0."""
+    centre, d = origin.initial.shape[0] // 2, len(origin.encoder)
+    residual = (origin.initial - origin.initial[centre] - origin.terminal).ravel()
+    state = np.zeros(d + 2)
+    state[:d] = np.dot(origin.encoder, residual)
+    return state
+
+
+@njit(cache=True)
+def _context(origin):
+    """[b, h_term] (1 + d,)."""
+    context = np.empty(len(origin.encoder) + 1)
+    context[0] = origin.b
+    context[1:] = np.dot(origin.encoder, origin.anchor.ravel())
+    return context
+
+
+@njit(cache=True)
+def dynamics_of(tables: Tables, origin: Origin, work: Array) -> Dynamics:
+    """The rates at the start's ℬ."""
+    n, d = len(tables.rates.signs_out), len(tables.damping)
+    bias = tables.rates_bias + np.dot(tables.rates_context, _context(origin))
+    constant, damping, pace = np.empty(n), np.zeros(n), np.ones(n)
+    one(tables.rates, bias, np.zeros(d), work, constant)
+    damping[:d], pace[:d] = tables.damping, origin.pace
+    return Dynamics(tables.rates, bias, constant, damping, pace)
+
+
+@njit(cache=True)
+def shapes_of(tables: Tables, decoder: Network, modes: Array, origin: Origin, work: Array) -> Shapes:
+    """The decoder at the start's ℬ; ``decoder`` and ``modes`` are those of ``tables`` in any precision."""
+    bias = tables.decoder_bias + np.dot(tables.decoder_context, _context(origin))
+    constant = np.empty(len(tables.decoder.signs_out))
+    one(tables.decoder, bias, np.zeros(len(tables.damping)), work, constant)
+    n_beads = origin.initial.shape[0]
+    dim = modes.shape[1] // n_beads
+    base = (origin.initial[n_beads // 2] + origin.terminal)[:, :dim].copy().reshape(n_beads * dim)
+    row = bias.astype(modes.dtype).reshape(1, bias.size)
+    return Shapes(decoder, row, constant, tables.pick, modes, base, origin.velocity[:dim].copy(), tables.half_length)
