@@ -3,7 +3,7 @@
 # it needs. Not part of everything: check_simulations runs every simulation a second time; scenes
 # runs and draws the files in scenes/; effects measures what each effect costs and changes;
 # third_dimension finds where planar motion ceases to be stable; states follows all steady states;
-# hard_cases measures the program where such programs usually break.
+# hard_cases measures the program where such programs usually break; cost measures what accuracy costs in time.
 
 
 configfile: "config.yaml"
@@ -20,6 +20,7 @@ include: "workflow/rules/figures.smk"
 include: "workflow/rules/scenes.smk"
 include: "workflow/rules/states.smk"
 include: "workflow/rules/hard_cases.smk"
+include: "workflow/rules/cost.smk"
 
 
 STUDY_RESULTS = [

@@ -107,6 +107,49 @@ def hard_case_model(wildcards):
     return model_files("results/models/forecast") if case_of(wildcards.case).needs_model else []
 
 
+def short_autoencoder(wildcards):
+    """The study's autoencoder that a neural ODE trained in short stands on: seeds are those of the ODE."""
+    return autoencoder(wildcards.variant, wildcards.dim, config["autoencoders"]["seeds"][0])
+
+
+def test_files(split):
+    """A split's data set and the terminal shapes beside it."""
+    return [f"results/{folder}/{split}.parquet" for folder in ("dataset", "terminal_shapes")]
+
+
+def benchmark_of_autoencoder(folder):
+    return f"results/benchmarks/train_autoencoder/{Path(folder).name}.tsv"
+
+
+def asked_models():
+    """Name, folder and benchmark files of the study's forecast models; the source's recipe is judged elsewhere."""
+    return [
+        [
+            name,
+            f"results/models/node/{name}",
+            benchmark_of_autoencoder(autoencoder_of(name)),
+            f"results/benchmarks/train_node/{name}.tsv",
+        ]
+        for name, node in NODES.items()
+        if node["recipe"] == "rollout"
+    ]
+
+
+def cost_models():
+    """Recipe, seed, folder and benchmark files of every model that is weighed against its training."""
+    study = [["study", NODES[name]["seed"], *words] for name, *words in ASKED_MODELS]
+    return study + [short_model(*one) for one in STUDY.short_models]
+
+
+def short_model(variant, dim, seed):
+    name, first = f"{variant}_d{dim}_s{seed}", config["autoencoders"]["seeds"][0]
+    files = [
+        benchmark_of_autoencoder(autoencoder(variant, dim, first)),
+        f"results/benchmarks/train_short_node/{name}.tsv",
+    ]
+    return ["short", seed, f"results/models/short/{name}", *files]
+
+
 SCENES = sorted(path.stem for path in (BASE / "scenes").glob("*.yaml"))
 TEST_SETS = ("A", "B")
 FIGURES = ("reconstruction", "forecast_errors", "baselines", "error_distribution")
@@ -118,6 +161,14 @@ AUTOENCODERS = [
     for dim in config["autoencoders"]["latent_dims"]
     for seed in config["autoencoders"]["seeds"]
 ]
+ASKED_MODELS = asked_models()
+COST_MODELS = cost_models()
+COST_CASES = {
+    "integrators": [f"results/costs/integrators/B{B}_k{k}.csv" for B, k in STUDY.integrator_runs],
+    "model_growth": [
+        f"results/costs/model_growth/N{n}.csv" for n in config["cost"]["model_growth"]["n_beads"]
+    ],
+}
 
 
 def benchmarks():

@@ -10,6 +10,7 @@ from sedfiber.errors import InputError
 from sedfiber.learning.settings import NodeSettings
 
 SPLITS = ("train", "A", "B")
+_RUN_KEYS = ("B", "angle_index")
 
 
 @dataclass(frozen=True)
@@ -55,10 +56,11 @@ class Study:
         if node["forecast_model"] not in node["models"]:
             names = ", ".join(node["models"])
             sys.exit(f"config: node.forecast_model: {node['forecast_model']!r} is not allowed; give one of {names}")
-        try:
-            NodeSettings(**node["rollout"])
-        except InputError as error:
-            sys.exit(f"config: node.rollout.{error}")
+        for place, settings in {"node.rollout": node["rollout"], "cost.models.node": self.short_node}.items():
+            try:
+                NodeSettings(**settings)
+            except InputError as error:
+                sys.exit(f"config: {place}.{error}")
 
     @property
     def simulate_options(self) -> str:
@@ -93,6 +95,49 @@ class Study:
         return as_options(self._fiber | self.config["effects"])
 
     @property
+    def integrator_runs(self) -> list[tuple[str, int]]:
+        """Every (ℬ, angle index) on which all integrators are timed."""
+        cases = self.config["cost"]["integrators"]
+        return [(number_name(B), k) for B in cases["B"] for k in cases["angle_index"]]
+
+    @property
+    def integrators_options(self) -> str:
+        """Options of ``sedfiber measure_integrators`` but for ℬ and k."""
+        how = {key: value for key, value in self.config["cost"]["integrators"].items() if key not in _RUN_KEYS}
+        return as_options({"n_beads": self.config["scene"]["n_beads"]} | how)
+
+    @property
+    def trajectories_options(self) -> str:
+        """Options of ``sedfiber measure_trajectories``: every fall of the study."""
+        splits = [as_options({key: self.config["study"][split][key] for key in _RUN_KEYS}) for split in SPLITS]
+        return " ".join([*splits, as_options({"n_beads": self.config["scene"]["n_beads"]})])
+
+    @property
+    def choices_options(self) -> str:
+        """Options of ``sedfiber measure_choices`` that say what is tried."""
+        return as_options(self.config["cost"]["choices"])
+
+    @property
+    def short_models(self) -> list[tuple[str, int, int]]:
+        """Variant, latent dimension and seed of every neural ODE trained in short."""
+        models, seeded = self.config["autoencoders"], self.config["cost"]["models"]
+        first = seeded["seeds"][0]
+        every = [(variant, d, first) for variant in models["variants"] for d in models["latent_dims"]]
+        again = [(node["variant"], node["latent_dim"]) for node in self.config["node"]["models"].values()]
+        return every + [(*one, seed) for one in dict.fromkeys(again) for seed in seeded["seeds"][1:]]
+
+    @property
+    def short_node(self) -> dict[str, Any]:
+        """Hyper-parameters of a neural ODE trained in short: the study's with the changes of ``cost.models``."""
+        return self.config["node"]["rollout"] | self.config["cost"]["models"]["node"]
+
+    @property
+    def model_growth_options(self) -> str:
+        """Options of ``sedfiber measure_model_growth`` but for the number of beads and the trainings."""
+        given = self.config["cost"]["model_growth"]
+        return as_options({key: given[key] for key in ("B", "angle_index", "asked_index", "latent_dim")})
+
+    @property
     def _fiber(self) -> dict[str, Any]:
         scene = self.config["scene"]
         return {key: scene[key] for key in ("n_beads", "hydrodynamics")}
@@ -106,4 +151,8 @@ def number_name(value: float) -> str:
 def as_options(values: dict[str, Any]) -> str:
     """``{"n_beads": 31, "json": True}`` as ``--n-beads 31 --json``; what is false is left out."""
     words = [(f"--{key.replace('_', '-')}", value) for key, value in values.items() if value is not False]
-    return " ".join(option if value is True else f"{option} {value}" for option, value in words)
+    return " ".join(option if value is True else f"{option} {_word(value)}" for option, value in words)
+
+
+def _word(value: Any) -> str:
+    return " ".join(map(str, value)) if isinstance(value, list) else str(value)

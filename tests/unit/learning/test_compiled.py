@@ -127,7 +127,7 @@ def _orbit(steps):
         for theta in (0.3, 0.7):
             x = c[0, 0] + theta * (c[1, 0] + theta * (c[2, 0] + theta * (c[3, 0] + theta * c[4, 0])))
             worst = max(worst, abs(x - np.cos((n + theta) * step)))
-        estimated = max(estimated, error_ratio(y, end, k, step, 0.0, 1.0))
+        estimated = max(estimated, error_ratio(y, end, k, step, 0.0, np.ones(2)))
         y[:], k[0] = end, k[STAGES - 1]
     return np.hypot(y[0] - np.cos(4.0), y[1] + np.sin(4.0)), worst, estimated
 

@@ -4,7 +4,7 @@ import os
 import platform
 from collections.abc import Callable
 from functools import partial
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from math import pi
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from sedfiber.benchmarks.timing import LEAST, REPEATS, timed
 from sedfiber.physics.assembly import assemble
 from sedfiber.scene import Scene
 
-_PACKAGES = {"numpy": "NumPy", "scipy": "SciPy", "numba": "numba", "sedfiber": "sedfiber"}
+_PACKAGES = {"numpy": "NumPy", "scipy": "SciPy", "numba": "numba", "torch": "torch", "sedfiber": "sedfiber"}
 
 
 def machine_columns() -> dict[str, str | float]:
@@ -23,7 +23,7 @@ def machine_columns() -> dict[str, str | float]:
 def machine() -> str:
     """Processor, threads and versions, in one line."""
     threads = os.environ.get("OMP_NUM_THREADS", str(os.cpu_count()))
-    versions = ", ".join(f"{name} {version(package)}" for package, name in _PACKAGES.items())
+    versions = ", ".join(f"{name} {_version(package)}" for package, name in _PACKAGES.items())
     plural = "" if threads == "1" else "s"
     return f"{_processor()}, {threads} thread{plural}; Python {platform.python_version()}, {versions}"
 
@@ -43,6 +43,14 @@ def _right_hand_side() -> Callable[[], object]:
     scene = Scene(1000.0, pi / 4)
     system = assemble(scene)
     return partial(system.rhs, 0.0, system.to_state(scene.start()))
+
+
+def _version(package: str) -> str:
+    """Of what is installed; the package itself may be run from a checkout that is not."""
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "not installed"
 
 
 def _processor() -> str:

@@ -14,12 +14,14 @@ from numba import literal_unroll, njit
 from sedfiber._typing import Array, Times
 from sedfiber.compiled.bead_path import PIECE, Scratch, Shapes, write
 from sedfiber.compiled.begin import Origin, dynamics_of, first_state, shapes_of
+from sedfiber.compiled.copying import copy
 from sedfiber.compiled.latent_path import DONE, Progress, clip, depart, judge
 from sedfiber.compiled.perceptron import Network, many
 from sedfiber.compiled.runge_kutta import DEGREE, STAGES, stage
 from sedfiber.compiled.tables import Tables
 
 LANES = 48  # few enough that what they need stays in the cache
+SMALLEST_ATOL = (10 * float(np.finfo(np.float32).eps), 0.0)  # of rates in float32 and float64: above rounding
 
 
 class Work(NamedTuple):
@@ -47,6 +49,7 @@ class Lanes(NamedTuple):
     y: Array
     k: Array
     clock: Array
+    atol: Array
     bias: Array
     constant: Array
     pace: Array
@@ -59,7 +62,7 @@ class Lanes(NamedTuple):
 def lanes_for(work: Work, count: int) -> Lanes:
     """Memory for so many lanes."""
     n, r, width = work.raw.shape[1], work.modes.shape[0], work.modes.shape[1]
-    dtype, float_sizes = work.modes.dtype, ((n,), (STAGES, n), (3,))
+    dtype, float_sizes = work.modes.dtype, ((n,), (STAGES, n), (3,), (n,))
     path = [(PIECE + 1,), (PIECE, DEGREE + 1, n)]
     return Lanes(
         np.zeros((count, 3), np.int64),
@@ -111,7 +114,7 @@ def sweep(
         _step(tables, work, lanes, active, starts, end)
         evaluations += active * (STAGES - 1)
         for s in range(active - 1, -1, -1):
-            status = _judge(lanes, s, starts, end[s], rtol, atol)
+            status = _judge(lanes, s, starts, end[s], rtol)
             if status > DONE:
                 return status, lanes.counters[s, 0], lanes.clock[s, 0], evaluations, decoded
             if status == DONE or lanes.counters[s, 1] == PIECE:
@@ -136,10 +139,18 @@ def _begin(tables, work, lanes, s, starts, which, rtol, atol, alone):
     dynamics, state = dynamics_of(tables, origin, alone), first_state(origin)
     shapes = shapes_of(tables, work.decoder, work.modes, origin, alone)
     progress = depart(dynamics, state, rtol, atol, alone)
-    lanes.y[s], lanes.k[s], lanes.clock[s] = progress.y, progress.k, progress.clock
-    lanes.bias[s], lanes.constant[s], lanes.pace[s] = dynamics.bias, dynamics.constant, dynamics.pace
-    lanes.shape_bias[s], lanes.shape_constant[s] = shapes.bias, shapes.constant
-    lanes.base[s], lanes.velocity[s] = shapes.base, shapes.velocity
+    copy(progress.y, lanes.y[s])
+    copy(progress.k[0], lanes.k[s, 0])
+    copy(progress.clock, lanes.clock[s])
+    for v in range(progress.atol.size):
+        lanes.atol[s, v] = max(progress.atol[v], SMALLEST_ATOL[work.modes.itemsize // 4 - 1])
+    copy(dynamics.bias, lanes.bias[s])
+    copy(dynamics.constant, lanes.constant[s])
+    copy(dynamics.pace, lanes.pace[s])
+    copy(shapes.bias[0], lanes.shape_bias[s, 0])
+    copy(shapes.constant, lanes.shape_constant[s])
+    copy(shapes.base, lanes.base[s])
+    copy(shapes.velocity, lanes.velocity[s])
     lanes.counters[s, 0], lanes.counters[s, 1], lanes.counters[s, 2], lanes.mesh[s, 0] = which, 0, 0, 0.0
 
 
@@ -161,11 +172,11 @@ def _step(tables, work, lanes, active, starts, end):
 
 
 @njit(cache=True)
-def _judge(lanes, s, starts, end, rtol, atol):
+def _judge(lanes, s, starts, end, rtol):
     """Accept or reject the step of lane ``s``."""
     counters, t_end = lanes.counters[s], starts.t[starts.counts[lanes.counters[s, 0]] - 1]
-    progress = Progress(lanes.y[s], lanes.k[s], lanes.clock[s])
-    accepted, status = judge(progress, end, t_end, rtol, atol, lanes.path[s, counters[1]])
+    progress = Progress(lanes.y[s], lanes.k[s], lanes.clock[s], lanes.atol[s])
+    accepted, status = judge(progress, end, t_end, rtol, lanes.path[s, counters[1]])
     if accepted:
         counters[1] += 1
         lanes.mesh[s, counters[1]] = lanes.clock[s, 0]
@@ -188,4 +199,4 @@ def _write(tables, work, lanes, s, starts, last, out):
 def _move(lanes, last, s):
     """Put the last lane in the place of ``s``, so that the active ones are the first."""
     for array in literal_unroll(lanes):
-        array[s] = array[last]
+        copy(array[last].ravel(), array[s].ravel())  # views: the lanes are contiguous

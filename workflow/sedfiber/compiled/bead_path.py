@@ -21,6 +21,7 @@ import numpy as np
 from numba import njit
 
 from sedfiber._typing import Array, Times
+from sedfiber.compiled.copying import copy_rows
 from sedfiber.compiled.perceptron import FAST, Network, many
 
 SPAN = 3
@@ -110,7 +111,7 @@ def write(
         if _many(bounds, w):
             _interpolate(memory.rows[row[w] : row[w] + DEGREE + 1], left, right, times, target)
         else:
-            target[:, :] = memory.rows[row[w] : row[w] + times.size]
+            copy_rows(memory.rows[row[w] : row[w] + times.size], target)
     return bounds[windows], rows
 
 
@@ -151,7 +152,7 @@ def _states_at(when, mesh, path, steps, states):
 def _decode(shapes, rows, memory):
     """Positions (rows, W) of the states."""
     latent, modal, out = memory.latent[:rows], memory.modal[:rows], memory.rows[:rows]
-    latent[:, :] = memory.states[:rows, : latent.shape[1]]
+    copy_rows(memory.states[:rows], latent)
     many(shapes.network, shapes.bias, latent, memory.work, modal)
     for s in range(rows):
         for m in range(modal.shape[1]):
@@ -216,8 +217,8 @@ def _lagrange(theta, weights):
     for j in range(DEGREE + 1):
         distance = theta - NODES[j]
         if distance == 0.0:
-            weights[:] = 0.0
-            weights[j] = 1.0
+            for i in range(DEGREE + 1):
+                weights[i] = 1.0 if i == j else 0.0
             return
         weights[j] = WEIGHTS[j] / distance
         total += WEIGHTS[j] / distance

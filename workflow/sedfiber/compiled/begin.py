@@ -7,6 +7,7 @@ from numba import njit
 
 from sedfiber._typing import Array, Positions
 from sedfiber.compiled.bead_path import Shapes
+from sedfiber.compiled.copying import copy
 from sedfiber.compiled.latent_path import Dynamics
 from sedfiber.compiled.perceptron import Network, one
 from sedfiber.compiled.tables import Tables
@@ -32,9 +33,12 @@ class Origin(NamedTuple):
 def first_state(origin: Origin) -> Array:
     """State [h, 0, 0] (d + 2,) at time 0."""
     centre, d = origin.initial.shape[0] // 2, len(origin.encoder)
-    residual = (origin.initial - origin.initial[centre] - origin.terminal).ravel()
-    state = np.zeros(d + 2)
-    state[:d] = np.dot(origin.encoder, residual)
+    n_beads, state = len(origin.initial), np.zeros(d + 2)
+    residual = np.empty(3 * n_beads)
+    for i in range(n_beads):
+        for j in range(3):
+            residual[3 * i + j] = origin.initial[i, j] - origin.initial[centre, j] - origin.terminal[i, j]
+    copy(np.dot(origin.encoder, residual), state)
     return state
 
 
@@ -43,7 +47,7 @@ def _context(origin):
     """[b, h_term] (1 + d,)."""
     context = np.empty(len(origin.encoder) + 1)
     context[0] = origin.b
-    context[1:] = np.dot(origin.encoder, origin.anchor.ravel())
+    copy(np.dot(origin.encoder, origin.anchor.ravel()), context[1:])
     return context
 
 
@@ -54,7 +58,8 @@ def dynamics_of(tables: Tables, origin: Origin, work: Array) -> Dynamics:
     bias = tables.rates_bias + np.dot(tables.rates_context, _context(origin))
     constant, damping, pace = np.empty(n), np.zeros(n), np.ones(n)
     one(tables.rates, bias, np.zeros(d), work, constant)
-    damping[:d], pace[:d] = tables.damping, origin.pace
+    for v in range(d):
+        damping[v], pace[v] = tables.damping[v], origin.pace
     return Dynamics(tables.rates, bias, constant, damping, pace)
 
 
@@ -66,6 +71,9 @@ def shapes_of(tables: Tables, decoder: Network, modes: Array, origin: Origin, wo
     one(tables.decoder, bias, np.zeros(len(tables.damping)), work, constant)
     n_beads = origin.initial.shape[0]
     dim = modes.shape[1] // n_beads
-    base = (origin.initial[n_beads // 2] + origin.terminal)[:, :dim].copy().reshape(n_beads * dim)
+    base = np.empty(n_beads * dim)
+    for i in range(n_beads):
+        for j in range(dim):
+            base[i * dim + j] = origin.initial[n_beads // 2, j] + origin.terminal[i, j]
     row = bias.astype(modes.dtype).reshape(1, bias.size)
     return Shapes(decoder, row, constant, tables.pick, modes, base, origin.velocity[:dim].copy(), tables.half_length)

@@ -28,7 +28,9 @@ from sedfiber.errors import InputError, NumericalError
 from sedfiber.learning.scaling import Scales
 from sedfiber.learning.start import Start
 
-RTOL, ATOL = 3e-7, 1e-6
+# Measured on the study's model with d = 4, against dopri5 at 1e-9: at 5e-7 all 143 test forecasts are
+# within 4.8e-7 L at every sample; starts unlike any of the training, arches and zigzags, are off by twice that.
+RTOL = ATOL = 3e-7
 VARIANTS = ("none", "encoder", "decoder", "double")
 
 

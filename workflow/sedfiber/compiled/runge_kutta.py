@@ -81,14 +81,14 @@ def stage(i: int, y: Array, k: Array, step: float, out: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def error_ratio(y: Array, end: Array, k: Array, step: float, rtol: float, atol: float) -> float:
+def error_ratio(y: Array, end: Array, k: Array, step: float, rtol: float, atol: Array) -> float:
     """Root mean square over the components of the step's error over its tolerance; 1 is just allowed."""
     total = 0.0
     for v in range(y.size):
         error = 0.0
         for j in range(STAGES):
             error += ERROR[j] * k[j, v]
-        error *= step / (atol + rtol * max(abs(y[v]), abs(end[v])))
+        error *= step / (atol[v] + rtol * max(abs(y[v]), abs(end[v])))
         total += error * error
     return np.sqrt(total / y.size)
 
@@ -118,11 +118,11 @@ def next_step(step: float, ratio: float, before: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def first_step(y: Array, rate: Array, bend: Array, trial: float, rtol: float, atol: float) -> float:
+def first_step(y: Array, rate: Array, bend: Array, trial: float, rtol: float, atol: Array) -> float:
     """First step by the rates at the start and ``bend``, those a ``trial`` step later (Hairer et al., II.4)."""
     speed = change = 0.0
     for v in range(y.size):
-        scale = atol + rtol * abs(y[v])
+        scale = atol[v] + rtol * abs(y[v])
         speed += (rate[v] / scale) ** 2
         change += ((bend[v] - rate[v]) / scale) ** 2
     largest = max(np.sqrt(speed / y.size), np.sqrt(change / y.size) / trial)

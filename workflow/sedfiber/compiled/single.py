@@ -25,7 +25,7 @@ def forecast(
     mesh, path = np.empty(PIECE + 1), np.empty((PIECE, DEGREE + 1, state.size))
     progress, status, evaluations, sample, decoded = depart(dynamics, state, rtol, atol, work), MORE, 2, 0, 0
     while status == MORE:
-        status, steps, used = advance(dynamics, progress, t[-1], rtol, atol, work, mesh, path)
+        status, steps, used = advance(dynamics, progress, t[-1], rtol, work, mesh, path)
         evaluations += used
         if status <= DONE:
             sample, rows = write(shapes, mesh, path, steps, t, sample, status == DONE, memory, out)
