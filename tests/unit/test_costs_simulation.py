@@ -109,7 +109,7 @@ def test_the_sources_run_stops_at_its_limit():
 def test_short_runs_are_repeated_ten_times_and_long_ones_three(monkeypatch):
     """The first run says which: below a second, here none at all, it warms up; from there on it counts."""
     calls = []
-    short = timed_run(lambda: calls.append("run") or "result", lambda: None)
+    short = timed_run(lambda: calls.append("run") or "result")
     assert (short.repeats, calls.count("run"), short.returned) == (REPEATS, REPEATS + 1, "result")
     calls.clear()
     monkeypatch.setattr("sedfiber.benchmarks.timing.LONG", 0.0)

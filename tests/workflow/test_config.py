@@ -119,10 +119,13 @@ OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml"}  # where 
 @pytest.mark.parametrize(
     ("environment", "commands"),
     [
-        ("simulate", ["simulate", "solve_terminal_shapes", "check_simulation"]),
+        ("simulate", ["simulate", "solve_terminal_shapes", "solve_terminal_curve", "check_simulation"]),
         ("analysis", ["aggregate_dataset", "tabulate_trajectories", "tabulate_timings", "write_manifest"]),
         ("analysis", ["tabulate_audit", "compare_third_dimension", "measure_effects", "benchmark_parts"]),
-        ("analysis", ["trace_states", "tabulate_hard_cases"]),
+        ("analysis", ["trace_states", "tabulate_hard_cases", "tabulate_costs"]),
+        ("analysis", ["measure_integrators", "measure_trajectories", "measure_discretisation"]),
+        ("learning", ["measure_choices", "measure_models", "measure_model_growth"]),
+        ("figures", ["plot_cost_integrators", "plot_cost_physics", "plot_cost_models", "plot_cost_decision"]),
         ("figures", ["plot_scene", "plot_effects", "plot_third_dimension", "plot_states", "plot_hard_cases"]),
         ("learning", ["train_autoencoder", "train_node", "forecast_test_set", "tabulate_forecast_errors"]),
         ("learning", ["measure_hard_case"]),

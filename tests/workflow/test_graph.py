@@ -36,6 +36,9 @@ def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
         ("states", {"trace_states", "plot_states"}),
         ("hard_cases", {"measure_hard_case", "tabulate_hard_cases", "plot_hard_cases"}),
         ("effects", {"measure_effects", "plot_effects", "benchmark_parts"}),
+        ("cost", {"measure_integrators", "measure_trajectories", "measure_discretisation", "measure_choices"}),
+        ("cost", {"train_short_node", "measure_models", "measure_model_growth", "tabulate_costs"}),
+        ("cost", {"plot_cost_integrators", "plot_cost_physics", "plot_cost_models", "plot_cost_decision"}),
     ],
 )
 def test_target_rules_make_their_stage(empty, target, last):

@@ -65,6 +65,29 @@ def test_the_same_command_twice_gives_the_same_bytes(finished, empty):
     assert [path for path in first if first[path] != second[path]] == []
 
 
+def test_costs_are_measured_from_a_finished_study(rerun):
+    """Every table with a row for all that was asked, counts beside times; all four figures; and advice from them."""
+    run = rerun.snakemake("-j1", "cost")
+    assert run.returncode == 0, run.stdout + run.stderr
+    results = rerun.folder / "results"
+    tables = {path.stem: pd.read_csv(path) for path in (results / "tables").glob("cost_*.csv")}
+    rows = {
+        "cost_integrators": 13, "cost_trajectories": 10 * 2, "cost_discretisation": 3 * 4, "cost_growth": 0,
+        "cost_models": (8 + 2 + 1) * 2, "cost_model_growth": 2 * 10, "cost_choices": 3 * 8, "cost_forecast": 10,
+    }  # fmt: skip
+    assert {name: len(table) for name, table in tables.items()} == rows
+    for table in tables.values():
+        assert {"machine", "rhs_unit_s"} <= set(table)
+    simulated = tables["cost_forecast"].query("family == 'simulation'").set_index("tolerance")
+    assert simulated.loc[1e-5, "error_worst"] < simulated.loc[1e-3, "error_worst"] / 5
+    assert simulated.loc[1e-5, "rhs"] > simulated.loc[1e-3, "rhs"] > 100
+    figures = {path.stem for path in (results / "figures").glob("cost_*.svg")}
+    assert figures == {"cost_integrators", "cost_physics", "cost_models", "cost_decision"}
+    advice = [sys.executable, "-m", "sedfiber", "advise", "--B", "100", "--error", "1e-2"]
+    told = subprocess.run(advice, cwd=rerun.folder, capture_output=True, text=True, check=True)
+    assert "choose simulation by LSODA" in told.stdout
+
+
 def test_the_trained_model_forecasts_from_command_and_python(finished, tmp_path):
     """The public interface: a file in the simulations' format, and positions (T, N, 3)."""
     folder = finished.folder / "results/models/forecast"

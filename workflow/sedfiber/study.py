@@ -53,6 +53,11 @@ class Study:
 
     def _require_sound_node(self) -> None:
         node = self.config["node"]
+        trained = self.config["autoencoders"]["latent_dims"]
+        for d in self.config["cost"]["models"]["latent_dims"]:
+            if d not in trained:
+                allowed = ", ".join(map(str, trained))
+                sys.exit(f"config: cost.models.latent_dims: {d} is not allowed; give some of {allowed}")
         if node["forecast_model"] not in node["models"]:
             names = ", ".join(node["models"])
             sys.exit(f"config: node.forecast_model: {node['forecast_model']!r} is not allowed; give one of {names}")
@@ -122,7 +127,7 @@ class Study:
         """Variant, latent dimension and seed of every neural ODE trained in short."""
         models, seeded = self.config["autoencoders"], self.config["cost"]["models"]
         first = seeded["seeds"][0]
-        every = [(variant, d, first) for variant in models["variants"] for d in models["latent_dims"]]
+        every = [(variant, d, first) for variant in models["variants"] for d in seeded["latent_dims"]]
         again = [(node["variant"], node["latent_dim"]) for node in self.config["node"]["models"].values()]
         return every + [(*one, seed) for one in dict.fromkeys(again) for seed in seeded["seeds"][1:]]
 

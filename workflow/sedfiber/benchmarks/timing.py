@@ -23,11 +23,11 @@ class Timing:
 
 @dataclass(frozen=True)
 class RunTiming(Timing):
-    """Timing of a whole run of ``repeats`` repeats, of a short call ``beside`` it, and what the run returned."""
+    """Timing of a whole run of ``repeats`` repeats, what it returned, and of a short call ``beside`` it, if any."""
 
     repeats: int
-    beside: Timing
     returned: object
+    beside: Timing | None
 
     @property
     def columns(self) -> dict[str, float]:
@@ -53,8 +53,8 @@ def timed_together(calls: list[Callable[[], object]], repeats: int = REPEATS) ->
     return [_timing(seconds) for seconds in zip(*rounds, strict=True)]
 
 
-def timed_run(run: Callable[[], object], beside: Callable[[], object]) -> RunTiming:
-    """Time a whole run, turn and turn about with a short call beside it.
+def timed_run(run: Callable[[], object], beside: Callable[[], object] | None = None) -> RunTiming:
+    """Time a whole run; turn and turn about with a short call, where there is one beside it.
 
     The first run warms up, and ten follow.  One of a second or more needs no warming up: it counts,
     with two more; one of more than 5 s counts alone.
@@ -64,12 +64,14 @@ def timed_run(run: Callable[[], object], beside: Callable[[], object]) -> RunTim
     first = time.perf_counter() - start
     seconds = [] if first < LONG else [first]
     n = REPEATS if first < LONG else FEW if first <= VERY_LONG else 1
-    bundle, turns = _bundle(beside), -(-REPEATS // n)  # no fewer than ten of the short call
+    turns, bundle = (-(-REPEATS // n), _bundle(beside)) if beside else (0, 0)  # no fewer than ten of the short call
     short = [_seconds(beside, bundle) for _ in range(turns * len(seconds))]
     while len(seconds) < n:
         seconds.append(_seconds(run, 1))
         short += [_seconds(beside, bundle) for _ in range(turns)]
-    return RunTiming(**asdict(_timing(seconds)), repeats=n, beside=_timing(short), returned=returned)
+    return RunTiming(
+        **asdict(_timing(seconds)), repeats=n, returned=returned, beside=_timing(short) if beside else None
+    )
 
 
 def _timing(seconds: Sequence[float]) -> Timing:

@@ -19,6 +19,8 @@ from sedfiber.tables import write_csv
 from sedfiber.terminal_curve import TerminalCurve, read_terminal_curve
 from sedfiber.validation import number_within, whole_number
 
+FEW = 3  # queries for what takes a thousand times as long as the rest
+
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Data, models with what they took to make, and what to try."""
@@ -39,6 +41,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--forecast-tolerances", nargs="+", required=True, help="relative, and absolute in L/2")
     parser.add_argument("--pod-modes", nargs="+", required=True, help="numbers of modes of POD-Galerkin")
     parser.add_argument("--batches", nargs="+", required=True, help="numbers of forecasts at once")
+    parser.add_argument("--batch-tolerances", nargs="+", required=True, help="relative, and absolute in L/2, of those")
     parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write: one row a choice")
     parser.add_argument("--at-each-B", type=Path, required=True, help="CSV file to write: one row a choice and ℬ")
 
@@ -63,17 +66,17 @@ def run(args: argparse.Namespace) -> None:
 def _measure(
     asked: list[Query], training: Dataset, models: dict[str, Path], curve: TerminalCurve, ladders: dict[str, list]
 ) -> Outcomes:
-    """Everything alone, then forecasts together; torch, a hundred times slower, on one angle of each ℬ."""
+    """What is fast is asked everything; POD-Galerkin one query of each ℬ, and torch, the slowest, a few."""
     found, n_beads = Outcomes(), training.n_beads
     at = {name: forecasters(folder, ladders["forecast_tolerances"], curve) for name, folder in models.items()}
-    contestants = [*simulations(ladders["simulation_tolerances"], n_beads), *galerkins(training, ladders["pod_modes"])]
-    contestants += [*lookups(training), *(one for name in models for one in compiled_forecasts(name, at[name]))]
-    measure_single(asked, contestants, found)
-    one_of_each = list({query.B: query for query in asked}.values())
+    contestants = [*simulations(ladders["simulation_tolerances"], n_beads), *lookups(training)]
+    measure_single(asked, contestants + [one for name in models for one in compiled_forecasts(name, at[name])], found)
+    of_each_B = list({query.B: query for query in asked}.values())
+    measure_single(of_each_B, galerkins(training, ladders["pod_modes"]), found)
     slow = [torch_forecast(name, folder, next(iter(at[name].values()))) for name, folder in models.items()]
-    measure_single(one_of_each, slow, found)
-    for name in models:
-        measure_sweeps(asked, name, at[name], ladders["batches"], found)
+    measure_single(of_each_B[:: -(-len(of_each_B) // FEW)], slow, found)
+    for name, folder in models.items():
+        measure_sweeps(asked, name, forecasters(folder, ladders["batch_tolerances"], curve), ladders["batches"], found)
     return found
 
 
@@ -87,7 +90,7 @@ def _models(given: list[list[str]]) -> list[list[str]]:
 def _ladders(args: argparse.Namespace) -> dict[str, list]:
     """The validated lists of what to try."""
     found: dict[str, list] = {}
-    for key in ("simulation_tolerances", "forecast_tolerances"):
+    for key in ("simulation_tolerances", "forecast_tolerances", "batch_tolerances"):
         allowed = "numbers from 1e-12 to 0.1"
         found[key] = [number_within(key, value, 1e-12, 0.1, allowed) for value in getattr(args, key)]
     for key in ("pod_modes", "batches"):

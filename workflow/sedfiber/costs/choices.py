@@ -8,7 +8,7 @@ from itertools import cycle, islice
 
 import numpy as np
 
-from sedfiber.benchmarks.timing import timed_run
+from sedfiber.benchmarks.timing import timed, timed_run
 from sedfiber.costs.choice import FORECAST, Choice, Outcomes
 from sedfiber.costs.contestants import Contestant
 from sedfiber.costs.queries import Query
@@ -21,14 +21,15 @@ PRECISIONS = {"float64": np.float64, "float32": np.float32}
 def measure_single(asked: Sequence[Query], contestants: Sequence[Contestant], found: Outcomes) -> None:
     """Ask every contestant every query; one that fails has an infinite error there."""
     for query in asked:
+        unit = timed(query.fall.rhs).least
         for contestant in contestants:
             try:
-                timing = timed_run(contestant.ask(query), query.fall.rhs)
+                timing = timed_run(contestant.ask(query))
             except NumericalError as error:
                 found.fail(contestant.choice, str(error))
                 continue
             positions, counts = timing.returned
-            units = {"rhs_units": timing.least / timing.beside.least}
+            units = {"rhs_units": timing.least / unit}
             found.add(contestant.choice, _errors(query, positions) | timing.columns | units | counts)
 
 
