@@ -73,7 +73,7 @@ def test_costs_are_measured_from_a_finished_study(rerun):
     tables = {path.stem: pd.read_csv(path) for path in (results / "tables").glob("cost_*.csv")}
     rows = {
         "cost_integrators": 13, "cost_trajectories": 10 * 2, "cost_discretisation": 3 * 4, "cost_growth": 0,
-        "cost_models": (8 + 2 + 1) * 2, "cost_model_growth": 2 * 10, "cost_choices": 3 * 8, "cost_forecast": 10,
+        "cost_models": (4 + 1 + 1) * 2, "cost_model_growth": 2 * 10, "cost_choices": 3 * 8, "cost_forecast": 10,
     }  # fmt: skip
     assert {name: len(table) for name, table in tables.items()} == rows
     for table in tables.values():

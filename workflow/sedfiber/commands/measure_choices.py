@@ -19,8 +19,6 @@ from sedfiber.tables import write_csv
 from sedfiber.terminal_curve import TerminalCurve, read_terminal_curve
 from sedfiber.validation import number_within, whole_number
 
-FEW = 3  # queries for what takes a thousand times as long as the rest
-
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Data, models with what they took to make, and what to try."""
@@ -66,7 +64,7 @@ def run(args: argparse.Namespace) -> None:
 def _measure(
     asked: list[Query], training: Dataset, models: dict[str, Path], curve: TerminalCurve, ladders: dict[str, list]
 ) -> Outcomes:
-    """What is fast is asked everything; POD-Galerkin one query of each ℬ, and torch, the slowest, a few."""
+    """What is fast is asked everything; POD-Galerkin one query of each ℬ, and torch, the slowest, the last."""
     found, n_beads = Outcomes(), training.n_beads
     at = {name: forecasters(folder, ladders["forecast_tolerances"], curve) for name, folder in models.items()}
     contestants = [*simulations(ladders["simulation_tolerances"], n_beads), *lookups(training)]
@@ -74,7 +72,7 @@ def _measure(
     of_each_B = list({query.B: query for query in asked}.values())
     measure_single(of_each_B, galerkins(training, ladders["pod_modes"]), found)
     slow = [torch_forecast(name, folder, next(iter(at[name].values()))) for name, folder in models.items()]
-    measure_single(of_each_B[:: -(-len(of_each_B) // FEW)], slow, found)
+    measure_single(of_each_B[-1:], slow, found)
     for name, folder in models.items():
         measure_sweeps(asked, name, forecasters(folder, ladders["batch_tolerances"], curve), ladders["batches"], found)
     return found

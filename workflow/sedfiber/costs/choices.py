@@ -4,6 +4,7 @@ All are timed in one process, trajectory by trajectory, so that a busy machine s
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from itertools import cycle, islice
 
 import numpy as np
@@ -20,6 +21,7 @@ PRECISIONS = {"float64": np.float64, "float32": np.float32}
 
 def measure_single(asked: Sequence[Query], contestants: Sequence[Contestant], found: Outcomes) -> None:
     """Ask every contestant every query; one that fails has an infinite error there."""
+    _warm_up(asked[0], contestants)
     for query in asked:
         unit = timed(query.fall.rhs).least
         for contestant in contestants:
@@ -31,6 +33,13 @@ def measure_single(asked: Sequence[Query], contestants: Sequence[Contestant], fo
             positions, counts = timing.returned
             units = {"rhs_units": timing.least / unit}
             found.add(contestant.choice, _errors(query, positions) | timing.columns | units | counts)
+
+
+def _warm_up(query: Query, contestants: Sequence[Contestant]) -> None:
+    """The first call of all compiles what was never compiled, which may take half a minute."""
+    for contestant in contestants:
+        with suppress(NumericalError):
+            contestant.ask(query)()
 
 
 def measure_sweeps(

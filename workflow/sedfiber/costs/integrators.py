@@ -1,7 +1,7 @@
 """Work against precision: what each integrator takes for the whole fall of one fiber of the study.
 
-Methods that take several times as long as the default are run at every second tolerance, explicit
-ones at every fourth (see METHODS).  A run that fails, takes too long, or reports success and is
+Methods that take several times as long as the default are run at every second or every fourth
+tolerance (see METHODS).  A run that fails, takes too long, or reports success and is
 wrong, is a row that says so with the seconds it took.
 """
 

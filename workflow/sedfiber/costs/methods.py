@@ -18,8 +18,7 @@ from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST
 from sedfiber.physics.system import System
 
 ANALYTIC, DIFFERENCES, NONE = "analytic", "differences", "none"
-SLOW = 2  # slow methods take every second tolerance
-STABILITY_BOUND = 4  # and explicit ones every fourth: what they take hardly depends on it
+SOME, FEW = 2, 4  # every second tolerance for what takes some times as long as the default, every fourth for the rest
 
 
 @dataclass(frozen=True)
@@ -124,14 +123,14 @@ def _solve_ivp(solver: type[OdeSolver], jacobian: str, every: int = 1, name: str
 
 METHODS = (
     _march("LSODA", ANALYTIC),
-    _march("LSODA", DIFFERENCES, SLOW),
-    _solve_ivp(LSODA, ANALYTIC, SLOW, "LSODA (solve_ivp)"),
-    _solve_ivp(LSODA, DIFFERENCES, SLOW, "LSODA (solve_ivp)"),
+    _march("LSODA", DIFFERENCES, SOME),
+    _solve_ivp(LSODA, ANALYTIC, SOME, "LSODA (solve_ivp)"),
+    _solve_ivp(LSODA, DIFFERENCES, FEW, "LSODA (solve_ivp)"),
     _march("BDF", ANALYTIC),
-    _solve_ivp(BDF, DIFFERENCES, SLOW),
-    _march("Radau", ANALYTIC, SLOW),
-    _solve_ivp(Radau, DIFFERENCES, SLOW),
-    _solve_ivp(DOP853, NONE, STABILITY_BOUND),
-    _solve_ivp(RK45, NONE, STABILITY_BOUND),
+    _solve_ivp(BDF, DIFFERENCES, FEW),
+    _march("Radau", ANALYTIC, SOME),
+    _solve_ivp(Radau, DIFFERENCES, FEW),
+    _solve_ivp(DOP853, NONE, FEW),
+    _solve_ivp(RK45, NONE, FEW),
     Method("source", NONE, by_source_setup, own_tolerance=source_setup.RTOL),
 )

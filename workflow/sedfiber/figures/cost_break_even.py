@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from sedfiber.figures.cost_choices import FORECAST, SIMULATION, TORCH, Choices, color_of
-from sedfiber.figures.style import GREY
+from sedfiber.figures.style import GREY, set_plain_ticks
 
 _ROWS = 8  # of the small table, at most
 _COLUMNS = (0.0, 0.64, 1.0)  # where the first begins and the others end
@@ -28,6 +28,7 @@ def draw_preparation(axes: Axes, shown: Choices) -> None:
     names = [row.name if row.family == FORECAST else row.family for row in ways.itertuples()]
     axes.set(xscale="log", xlabel="seconds of data and training", ylim=(len(ways) - 0.5, -0.5))
     axes.margins(x=0.1)
+    set_plain_ticks(axes.xaxis)
     axes.set_yticks(range(len(names)), names)
     axes.tick_params(axis="y", length=0)
 

@@ -67,7 +67,9 @@ def color_of(shown: Choices, family: str, name: str) -> str:
 
 
 def _at_one_tolerance(model: pd.DataFrame) -> pd.DataFrame:
-    """The loosest at which the largest error is nearly the model's least."""
+    """The loosest at which the largest error is nearly the model's least, of those with most sizes of batches."""
+    tried = model.groupby("tolerance").size()
+    model = model[model["tolerance"].isin(tried[tried == tried.max()].index)]
     alone = model[model["batch"] == model["batch"].min()]
     worst = alone.groupby("tolerance")["worst"].max()
     return model[model["tolerance"] == worst[worst <= _NEAR * worst.min()].index.max()]

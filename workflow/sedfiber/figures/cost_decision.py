@@ -17,9 +17,9 @@ _NOTES = (
 )
 _TITLES = ("a trajectory: time against error", "before the first answer", "queries until it pays (times faster)")
 _OTHERS = {
-    SIMULATION: ("o", "simulation, LSODA, at each tolerance"),
-    LOOKUP: ("p", "lookup, splines"),
-    GALERKIN: ("o", "POD–Galerkin, with its number of modes"),
+    SIMULATION: ("o", "simulation, by tolerance"),
+    LOOKUP: ("p", "spline lookup"),
+    GALERKIN: ("o", "POD–Galerkin, by modes"),
 }
 _SMALL = 6.0  # points
 
@@ -42,6 +42,7 @@ def draw_cost_decision(table: pd.DataFrame) -> Figure:
 
 def _draw_chart(axes: Axes, shown: Choices) -> None:
     axes.set(xscale="log", yscale="log", ylabel="seconds of one trajectory")
+    axes.margins(x=0.08)
     axes.set_xlabel("largest root-mean-square bead distance / L\n← more accurate                              less →")
     if shown.rows["error_worst"].isna().any():
         axes.axvline(shown.edge, color=GREY, linestyle=(0, (1, 1.2)))

@@ -18,7 +18,7 @@ from sedfiber.figures.style import (
     SET_TITLES,
     VERMILION,
     letter_panel,
-    set_B_ticks,
+    set_plain_ticks,
 )
 from sedfiber.figures.table_input import in_set, select_columns
 from sedfiber.validation import one_of
@@ -52,7 +52,7 @@ def draw_cost_models(table: pd.DataFrame) -> Figure:
             letter_panel(axes, next(letters), title)
             axes.set(xscale="log", yscale="log", xlabel=xlabel)
             if column == "training_seconds":
-                set_B_ticks(axes.xaxis)
+                set_plain_ticks(axes.xaxis)
             _draw_set(axes, in_set(rows, test_set), column, top)
         line[0].set_ylabel("largest E(t): worst trajectory, dashes median")
     note = (

@@ -18,7 +18,7 @@ from sedfiber.figures.style import (
     draw_level,
     letter_panel,
     place_legend,
-    set_B_ticks,
+    set_plain_ticks,
 )
 from sedfiber.figures.table_input import in_set, select_columns
 from sedfiber.validation import one_of, positive_number
@@ -104,4 +104,4 @@ def _add_part_keys(axes: Axes) -> None:
 def _add_color_bar(figure: Figure, beside: Axes, norm: LogNorm) -> None:
     bar = figure.colorbar(ScalarMappable(norm, SEQUENTIAL), ax=beside, pad=0.02)
     bar.set_label(f"elasto-gravitational number {B_SYMBOL}")
-    set_B_ticks(bar.ax.yaxis)
+    set_plain_ticks(bar.ax.yaxis)

@@ -92,8 +92,8 @@ def draw_level(axes: Axes, value: float, color: str, dashes: tuple, label: str) 
     axes.axhline(value, color=color, linestyle=dashes, linewidth=1.0, label=label, zorder=1.5)
 
 
-def set_B_ticks(axis: Axis) -> None:
-    """Ticks of a logarithmic ℬ axis as plain numbers: 100, 200, 500, 1000 …"""
+def set_plain_ticks(axis: Axis) -> None:
+    """Ticks of a logarithmic axis as plain numbers, such as those of ℬ: 100, 200, 500, 1000 …"""
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
     axis.set_major_formatter(FormatStrFormatter("%g"))
     axis.set_minor_locator(NullLocator())

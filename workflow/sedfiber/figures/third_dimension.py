@@ -16,7 +16,7 @@ from sedfiber.figures.style import (
     VERMILION,
     letter_panel,
     place_legend,
-    set_B_ticks,
+    set_plain_ticks,
 )
 from sedfiber.figures.table_input import select_columns
 
@@ -45,7 +45,7 @@ def _draw_rates(axes: Axes, rows: pd.DataFrame, turn: float) -> None:
     look = {"color": VERMILION, "marker": "o", "linestyle": "none", "markerfacecolor": "none"}
     axes.plot(rows["B"], rows["measured_rate"], label="measured in volume", **look)
     axes.set(xscale="log", xlabel=f"elasto-gravitational number {B_SYMBOL}", ylabel="out-of-plane rate / (U$_s$/a)")
-    set_B_ticks(axes.xaxis)
+    set_plain_ticks(axes.xaxis)
 
 
 def _draw_growth(axes: Axes, histories: pd.DataFrame, rows: pd.DataFrame) -> None:
