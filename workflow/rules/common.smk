@@ -150,6 +150,9 @@ def short_model(variant, dim, seed):
     return ["short", seed, f"results/models/short/{name}", *files]
 
 
+# Jobs that measure time take all cores, so that nothing runs beside them. Snakemake cuts it down to
+# what there is; workflow.cores would do, but is unknown where only the graph is asked for.
+EVERY_CORE = 1024
 SCENES = sorted(path.stem for path in (BASE / "scenes").glob("*.yaml"))
 TEST_SETS = ("A", "B")
 FIGURES = ("reconstruction", "forecast_errors", "baselines", "error_distribution")

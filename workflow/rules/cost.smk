@@ -13,7 +13,7 @@ rule measure_integrators:
         "results/benchmarks/measure_integrators/B{B}_k{k}.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: workflow.cores
+    threads: EVERY_CORE
     resources:
         mem_mb=1000,
         runtime=10,
@@ -61,7 +61,7 @@ rule measure_trajectories:
         "results/benchmarks/measure_trajectories.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: workflow.cores
+    threads: EVERY_CORE
     resources:
         mem_mb=1000,
         runtime=10,
@@ -85,7 +85,7 @@ rule measure_discretisation:
         "results/benchmarks/measure_discretisation.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: workflow.cores
+    threads: EVERY_CORE
     resources:
         mem_mb=2000,
         runtime=15,
@@ -145,7 +145,7 @@ rule measure_models:
         "results/benchmarks/measure_models.tsv"
     conda:
         "../../envs/learning.yaml"
-    threads: workflow.cores
+    threads: EVERY_CORE
     resources:
         mem_mb=2000,
         runtime=10,
@@ -175,7 +175,7 @@ rule measure_choices:
         "results/benchmarks/measure_choices.tsv"
     conda:
         "../../envs/learning.yaml"
-    threads: workflow.cores
+    threads: EVERY_CORE
     resources:
         mem_mb=3000,
         runtime=20,
@@ -205,7 +205,7 @@ rule measure_model_growth:
         n_beads=r"\d+",
     conda:
         "../../envs/learning.yaml"
-    threads: workflow.cores
+    threads: EVERY_CORE
     resources:
         mem_mb=3000,
         runtime=15,

@@ -128,14 +128,14 @@ def w_point(scene: Scene, curve: SteadyCurve) -> CurvePoint:
 
 
 def _symmetric_fall(scene: Scene) -> Positions | None:
-    """Where an exactly symmetric fiber comes to rest, (N, 2); None when it does not."""
+    """Where an exactly symmetric fiber comes to rest, (N, 2); None when it does not, or only with beads collapsed."""
     system = MirrorSymmetric(assemble(scene))
     interval = 20.0
     march = LSODAMarch(system, Tolerances(1e-8, 1e-8))
     try:
         for k, y in enumerate(march.states(system.to_state(scene.start()), interval)):
             if k and np.abs(system.relative_velocities(y)).max() < _ROUGHLY_STEADY:
-                return system.to_shapes(y)[:, :2]
+                return None if system.loss_of_definiteness(y) else system.to_shapes(y)[:, :2]
             if k * interval > _LONGEST_FALL * scene.n_beads:
                 break
     except NumericalError:  # few beads collapse where plain RPY is not positive definite
