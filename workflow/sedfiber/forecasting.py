@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from sedfiber._typing import Array, History, Positions, Times
-from sedfiber.compiled.model import CompiledModel, load_compiled
+from sedfiber.compiled.model import RTOL, CompiledModel, load_compiled
 from sedfiber.errors import InputError
 from sedfiber.learning.start import Start
 from sedfiber.physics.settling import SETTLED, distance_to_terminal, settling_time
@@ -22,6 +22,7 @@ from sedfiber.scene import Scene
 from sedfiber.terminal_curve import FILE as CURVE
 from sedfiber.terminal_curve import TerminalCurve, read_terminal_curve
 from sedfiber.trajectory import Trajectory
+from sedfiber.validation import number_within
 
 _FIRST_LOOK = 256  # samples forecast before the first look at whether the fiber has settled
 _MOST_SAMPLES = 2**17
@@ -169,10 +170,17 @@ class Forecaster:
         }
 
 
-def load_model(folder: str | Path) -> Forecaster:
-    """Load a forecast model, such as ``results/models/forecast``; raises InputError for anything else."""
+def load_model(folder: str | Path, tolerance: float = RTOL) -> Forecaster:
+    """Load a forecast model, such as ``results/models/forecast``; raises InputError for anything else.
+
+    ``tolerance`` of a step, relative and in L/2, bounds how far a forecast is from an exact solution of
+    the model; 1e-4 takes 0.6 of the default's time and adds an error of 1e-5 L in the median.
+    """
+    number_within("tolerance", tolerance, 1e-12, 0.1, "a number from 1e-12 to 0.1")
     curve = Path(folder) / CURVE
-    return Forecaster(load_compiled(folder), read_terminal_curve(curve) if curve.exists() else None)
+    return Forecaster(
+        load_compiled(folder, tolerance, tolerance), read_terminal_curve(curve) if curve.exists() else None
+    )
 
 
 def _order(start: Array) -> int:

@@ -158,6 +158,17 @@ def test_a_terminal_shape_comes_from_the_series_or_the_solver(forecaster, traine
     assert np.array_equal(forecaster.start(401.0, 0.5).terminal, steady_state(401.0, N_BEADS).positions)
 
 
+def test_a_looser_tolerance_takes_fewer_evaluations(forecaster, trained_model):
+    """And stays within a hundred times itself of the default's answer; one that is none is refused."""
+    t = np.linspace(0.0, 100.0, 41)
+    loose = load_model(trained_model, tolerance=1e-4)
+    far = largest_distance(loose.forecast(200.0, 1.0, t), forecaster.forecast(200.0, 1.0, t), LENGTH)
+    assert 1e-7 < far < 1e-2
+    assert loose.model.evaluations < forecaster.model.evaluations
+    with pytest.raises(InputError, match=r"^tolerance: 2\.0 is not allowed"):
+        load_model(trained_model, tolerance=2.0)
+
+
 def test_forecasting_needs_no_torch(trained_model):
     """Not imported, directly or not: it takes seconds."""
     words = f"import sys, sedfiber; sedfiber.load_model({str(trained_model)!r}).forecast(200, 0.5, [0.0, 1.0])"
