@@ -148,6 +148,7 @@ def test_tables_have_a_row_for_every_choice(found, asked):
     assert {"error_worst", "E_median", "rhs", "evaluations", "decoded", "rhs_units", *SECONDS} <= set(overall)
     trained = overall[overall["name"] == "small"]
     assert (trained["preparation_seconds"] == 100.0).all() and trained["times_faster"].notna().all()
+    assert overall[overall["name"] == "small (torch)"]["preparation_seconds"].eq(100.0).all()
     assert overall[overall["family"] == SIMULATION]["preparation_seconds"].eq(0.0).all()
     assert overall[overall["family"] == LOOKUP]["preparation_seconds"].eq(10.0).all()
     at_each = choices_at_each_B(found, asked, {"small": 100.0}, 10.0)

@@ -7,6 +7,7 @@ import numpy as np
 from sedfiber._typing import Array
 
 SIMULATION, FORECAST, LOOKUP, GALERKIN = "simulation", "forecast", "lookup", "POD-Galerkin"
+TORCH = " (torch)"  # after the name of a model that is not in compiled code
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from sedfiber._typing import Array
-from sedfiber.costs.choice import FORECAST, SIMULATION, Outcome, Outcomes
+from sedfiber.costs.choice import FORECAST, SIMULATION, TORCH, Outcome, Outcomes
 from sedfiber.costs.queries import Query
 
 SECONDS = ("seconds_least", "seconds_median", "seconds_spread")
@@ -66,7 +66,9 @@ def _overall(outcome: Outcome, found: Outcomes, preparation: float) -> dict:
 
 def _preparation(outcome: Outcome, preparation: Mapping[str, float], data: float) -> float:
     """Seconds before the first answer: none for a simulation, those of the data for what learns nothing else."""
-    return 0.0 if outcome.choice.family == SIMULATION else preparation.get(outcome.choice.name, data)
+    return (
+        0.0 if outcome.choice.family == SIMULATION else preparation.get(outcome.choice.name.removesuffix(TORCH), data)
+    )
 
 
 def _against_simulation(outcome: Outcome, found: Outcomes, preparation: float) -> dict:

@@ -14,7 +14,7 @@ import numpy as np
 
 from sedfiber._typing import History
 from sedfiber.compiled.model import load_compiled
-from sedfiber.costs.choice import FORECAST, GALERKIN, LOOKUP, SIMULATION, Choice
+from sedfiber.costs.choice import FORECAST, GALERKIN, LOOKUP, SIMULATION, TORCH, Choice
 from sedfiber.costs.galerkin import PodGalerkin
 from sedfiber.costs.queries import Query
 from sedfiber.forecasting import Forecaster
@@ -82,7 +82,7 @@ def torch_forecast(name: str, folder: Path, forecaster: Forecaster) -> Contestan
         one = query.trajectory
         return lambda: (model.forecast_many([forecaster.start(one.B, one.theta0)], one.t)[0], {})
 
-    return Contestant(Choice(FORECAST, f"{name} (torch)", forecaster.model.latent_dim, model.rtol), ask)
+    return Contestant(Choice(FORECAST, f"{name}{TORCH}", forecaster.model.latent_dim, model.rtol), ask)
 
 
 def _simulation(tolerance: float, n_beads: int) -> Contestant:
