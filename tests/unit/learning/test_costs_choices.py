@@ -69,7 +69,7 @@ def outcome_of(found, family, **facts):
 
 
 def test_the_reference_of_a_query_is_another_method(asked):
-    """Radau at 1e-9 differs from the stored run by its error, which is small and not zero."""
+    """BDF at 1e-9 differs from the stored run by its error, which is small and not zero."""
     for query in asked:
         assert 0.0 < query.error(query.trajectory.positions) < 1e-5
         assert query.error(query.truth) == query.E(query.truth) == 0.0

@@ -13,7 +13,7 @@ from sedfiber.learning.measures import forecast_error
 from sedfiber.numerics import Numerics
 from sedfiber.scene import Scene
 
-REFERENCE = Numerics("Radau", 1e-9, 1e-9)
+REFERENCE = Numerics("BDF", 1e-9, 1e-9)
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ class Query:
 
 
 def queries(trajectories: Iterable[Trajectory], hydrodynamics: str = Scene.hydrodynamics) -> list[Query]:
-    """Each trajectory integrated again by Radau at 1e-9, to measure simulations against."""
+    """Each trajectory integrated again by BDF at 1e-9, to measure simulations against."""
     falls = [(one, _fall(one, hydrodynamics)) for one in trajectories]
     return [Query(one, fall, fall.by_numerics(REFERENCE).positions) for one, fall in falls]
 
