@@ -12,10 +12,10 @@ FORECASTS = {"forecast_test_set", "forecast_by_lookup"}
 
 
 def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
-    """84 + 77 + 66 = 227 simulations; 4 variants × 6 dimensions = 24 autoencoders."""
+    """84 + 77 + 66 = 227 simulations; 4 variants × 6 dimensions × 3 seeds = 72 autoencoders."""
     planned = full.planned()
     assert planned["simulate"] == 227
-    assert planned["train_autoencoder"] == 24
+    assert planned["train_autoencoder"] == 72
     assert planned["train_node"] == 4
     assert planned["forecast_test_set"] == 8
     assert planned["aggregate_dataset"] == planned["solve_terminal_shapes"] == 3

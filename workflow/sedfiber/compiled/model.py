@@ -21,12 +21,13 @@ from sedfiber.compiled import batch, single
 from sedfiber.compiled.bead_path import scratch
 from sedfiber.compiled.begin import Origin
 from sedfiber.compiled.latent_path import DONE, NOT_FINITE
-from sedfiber.compiled.model_file import does_not_fit, read_model
+from sedfiber.compiled.model_file import read_model
 from sedfiber.compiled.perceptron import cast
 from sedfiber.compiled.tables import Encoder, Tensors, tables
 from sedfiber.errors import InputError, NumericalError
 from sedfiber.learning.scaling import Scales
 from sedfiber.learning.start import Start
+from sedfiber.model_folder import does_not_fit
 
 # Measured on the study's model with d = 4, against dopri5 at 1e-9: at 5e-7 all 143 test forecasts are
 # within 4.8e-7 L at every sample; starts unlike any of the training, arches and zigzags, are off by twice that.

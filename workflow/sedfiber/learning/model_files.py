@@ -5,7 +5,6 @@ checksum of the weights, so that a half-finished write is never taken for a mode
 bytes depend on the model only.
 """
 
-import hashlib
 import json
 from dataclasses import asdict
 from pathlib import Path
@@ -18,16 +17,14 @@ from safetensors.torch import save as save_tensors
 from torch import Tensor
 
 from sedfiber.atomic_file import require_folder, write_bytes
-from sedfiber.errors import InputError, NumericalError
+from sedfiber.errors import NumericalError
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.forecast import ForecastModel
 from sedfiber.learning.neural_ode import NeuralOde
 from sedfiber.learning.pod import ModalBasis
 from sedfiber.learning.scaling import Scales
 from sedfiber.learning.settings import AutoencoderSettings
-
-WEIGHTS = "model.safetensors"
-CARD = "card.json"
+from sedfiber.model_folder import CARD, WEIGHTS, checksum, does_not_fit, read_model_folder
 
 
 def save_autoencoder(model: Autoencoder, folder: str | Path, notes: dict[str, Any]) -> None:
@@ -113,7 +110,7 @@ def _under(prefix: str, tensors: dict[str, Tensor]) -> dict[str, Tensor]:
 def _write(folder: str | Path, tensors: dict[str, Tensor], card: dict[str, Any]) -> None:
     _require_finite(tensors)
     weights = save_tensors(tensors)
-    card = {**card, "sha256": hashlib.sha256(weights).hexdigest()}
+    card = {**card, "sha256": checksum(weights)}
     text = json.dumps(card, indent=2, sort_keys=True, ensure_ascii=False) + "\n"
     require_folder(Path(folder))
     write_bytes(Path(folder) / WEIGHTS, weights)
@@ -130,15 +127,7 @@ def _require_finite(tensors: dict[str, Tensor]) -> None:
 
 
 def _read(folder: str | Path, kind: str) -> tuple[dict[str, Any], dict[str, Tensor]]:
-    try:
-        card = json.loads((Path(folder) / CARD).read_text(encoding="utf-8"))
-        weights = (Path(folder) / WEIGHTS).read_bytes()
-    except (OSError, ValueError) as error:
-        raise InputError(f"{folder} holds no readable model: {error}") from error
-    if not isinstance(card, dict) or card.get("kind") != kind:
-        raise InputError(f"{folder} does not hold a model of the kind {kind!r}")
-    if card.get("sha256") != hashlib.sha256(weights).hexdigest():
-        raise InputError(f"{folder}/{WEIGHTS} does not match its card: damaged or half-written")
+    card, weights = read_model_folder(folder, kind)
     with _Rebuilding(folder):
         return card, load_tensors(weights)
 
@@ -154,5 +143,4 @@ class _Rebuilding:
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: object) -> None:
         if isinstance(error, (KeyError, TypeError, ValueError, RuntimeError, SafetensorError)):
-            reason = str(error).splitlines()[0]
-            raise InputError(f"{self.folder} holds a model that does not fit: {reason}") from error
+            raise does_not_fit(self.folder, error) from error

@@ -1,0 +1,39 @@
+"""A model's folder: ``model.safetensors`` (weights) and ``card.json`` (what they are), read and checked.
+
+The card holds the checksum of the weights, so that a half-finished write is never taken for a
+model.  Neither torch nor NumPy is needed here: who asks turns the bytes into tensors.
+"""
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from sedfiber.errors import InputError
+
+WEIGHTS = "model.safetensors"
+CARD = "card.json"
+
+
+def read_model_folder(folder: str | Path, kind: str) -> tuple[dict[str, Any], bytes]:
+    """Card and weights of a model of that kind, such as ``forecast model``; raises InputError for anything else."""
+    try:
+        card = json.loads((Path(folder) / CARD).read_text(encoding="utf-8"))
+        weights = (Path(folder) / WEIGHTS).read_bytes()
+    except (OSError, ValueError) as error:
+        raise InputError(f"{folder} holds no readable model: {error}") from error
+    if not isinstance(card, dict) or card.get("kind") != kind:
+        raise InputError(f"{folder} does not hold a model of the kind {kind!r}")
+    if card.get("sha256") != checksum(weights):
+        raise InputError(f"{folder}/{WEIGHTS} does not match its card: damaged or half-written")
+    return card, weights
+
+
+def checksum(weights: bytes) -> str:
+    """What a card says its weights are known by."""
+    return hashlib.sha256(weights).hexdigest()
+
+
+def does_not_fit(folder: str | Path, error: Exception) -> InputError:
+    """What to raise for a card whose entries are missing, or do not fit the weights."""
+    return InputError(f"{folder} holds a model that does not fit: {str(error).splitlines()[0]}")
