@@ -1,17 +1,21 @@
 # make reproduce   the environment, then the whole study
 # make test        the environment, then all tests
+# make publish     a full run of committed code, copied to results/published
 
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: reproduce test lint environment lock clean
+.PHONY: reproduce test publish lint environment lock clean
 
 reproduce: environment
 	PATH="$(CURDIR)/$(BIN):$$PATH" snakemake -j2
 
 test: environment
 	PATH="$(CURDIR)/$(BIN):$$PATH" pytest -n 2 --dist loadgroup
+
+publish: reproduce
+	$(BIN)/sedfiber publish_results
 
 lint: environment
 	$(BIN)/ruff check .

@@ -1,5 +1,5 @@
 # The whole study as a graph of files. `snakemake -j2` makes everything; each of the target
-# rules simulations, dataset, autoencoders, node, forecasts and errors makes one stage and what
+# rules simulations, dataset, autoencoders, node, forecasts, errors and figures makes one stage and what
 # it needs. Not part of everything: check_simulations runs every simulation a second time; scenes
 # runs and draws the files in scenes/; effects measures what each effect costs and changes;
 # third_dimension finds where planar motion ceases to be stable; states follows all steady states;
@@ -9,7 +9,11 @@
 configfile: "config.yaml"
 
 
+report: "workflow/report/study.rst"
+
+
 include: "workflow/rules/common.smk"
+include: "workflow/rules/reporting.smk"
 include: "workflow/rules/simulations.smk"
 include: "workflow/rules/dataset.smk"
 include: "workflow/rules/autoencoders.smk"
@@ -17,6 +21,9 @@ include: "workflow/rules/node.smk"
 include: "workflow/rules/forecasts.smk"
 include: "workflow/rules/errors.smk"
 include: "workflow/rules/figures.smk"
+include: "workflow/rules/forecast_figures.smk"
+include: "workflow/rules/films.smk"
+include: "workflow/rules/report.smk"
 include: "workflow/rules/scenes.smk"
 include: "workflow/rules/states.smk"
 include: "workflow/rules/hard_cases.smk"
@@ -30,10 +37,13 @@ STUDY_RESULTS = [
     rules.node.input,
     rules.forecasts.input,
     rules.errors.input,
+    rules.figures.input,
+    rules.tabulate_key_numbers.output,
 ]
 
 
 include: "workflow/rules/provenance.smk"
+include: "workflow/rules/published.smk"
 
 
 rule all:
@@ -42,3 +52,5 @@ rule all:
         STUDY_RESULTS,
         rules.tabulate_timings.output,
         rules.write_manifest.output,
+        rules.show_manifest.output,
+        expand("results/report/{table}.html", table=STUDY_TABLES),

@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
+from workflow_helpers import REPOSITORY
 
-REPOSITORY = Path(__file__).parents[2]
 TINY = Path(__file__).with_name("tiny.yaml")
 
 
@@ -30,8 +30,8 @@ class Checkout:
         assert run.returncode == 0, run.stdout + run.stderr
         text = run.stdout + run.stderr
         jobs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)}
-        targets = {"all", "total", "simulations", "dataset", "autoencoders", "node", "forecasts", "errors"}
-        targets |= {"scenes", "effects", "third_dimension", "states", "hard_cases", "cost"}
+        targets = {"all", "total", "simulations", "dataset", "autoencoders", "node", "forecasts", "errors", "figures"}
+        targets |= {"scenes", "effects", "third_dimension", "states", "hard_cases", "cost", "films"}
         return {name: count for name, count in jobs.items() if name not in targets}
 
     def edit(self, path: str, old: str, new: str) -> None:

@@ -36,6 +36,7 @@ pytestmark = pytest.mark.xdist_group("workflow")
         ("forecast_model: decoder_d2", "forecast_model: best", "node.forecast_model", "best"),
         ("rollout_iterations: [10, 10]", "rollout_iterations: [10]", "node.rollout.rollout_iterations", "[10]"),
         ("iterations: 60 }", "iterations: 60, momentum: 1 }", "autoencoders.settings", "momentum"),
+        ("figures: { B: 200", "figures: { B: 100", "figures.B", "100"),
     ],
 )
 def test_a_bad_value_stops_the_workflow_with_one_line(empty, old, new, key, value):
@@ -113,7 +114,8 @@ def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
     assert not any(name.startswith(("learning", "physics")) for name in drawn)
 
 
-OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml"}  # where the import's name is not the package's
+# where the import's name is not the package's
+OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml", "PIL": "pillow"}
 
 
 @pytest.mark.parametrize(
@@ -129,7 +131,12 @@ OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml"}  # where 
         ("figures", ["plot_scene", "plot_effects", "plot_third_dimension", "plot_states", "plot_hard_cases"]),
         ("learning", ["train_autoencoder", "train_node", "forecast_test_set", "tabulate_forecast_errors"]),
         ("learning", ["measure_hard_case"]),
-        ("figures", ["plot_reconstruction", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"]),
+        ("learning", ["tabulate_lags"]),
+        ("analysis", ["tabulate_regimes", "tabulate_key_numbers", "show_table", "show_manifest", "compare_published"]),
+        ("figures", ["plot_problem", "plot_shapes_by_angle", "plot_centre_paths", "plot_shapes_by_flexibility"]),
+        ("figures", ["plot_data_sets", "plot_model_diagram", "plot_reconstruction", "plot_forecast_errors"]),
+        ("figures", ["plot_forecast_shapes", "plot_forecast_paths", "plot_contact_sheet", "plot_lags"]),
+        ("figures", ["plot_baselines", "plot_error_distribution", "film_forecast", "film_scene"]),
     ],
 )
 def test_conda_environments_hold_what_their_commands_import(environment, commands):

@@ -4,8 +4,16 @@ import pytest
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
 
-AFTER_EVERYTHING = {"tabulate_timings", "write_manifest"}
-ERRORS = {"tabulate_forecast_errors", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"}
+AFTER_EVERYTHING = {"tabulate_timings", "write_manifest", "show_table", "show_manifest"}
+ERRORS = {"tabulate_forecast_errors", "tabulate_lags"}
+FORECAST_FIGURES = {
+    f"plot_{name}"
+    for name in ("forecast_shapes_A", "forecast_shapes_B", "forecast_paths", "forecast_errors", "contact_sheet")
+} | {"plot_error_distribution", "plot_baselines", "plot_lags"}
+STUDY_FIGURES = {
+    f"plot_{name}" for name in ("problem", "shapes_by_angle", "centre_paths", "shapes_by_flexibility", "data_sets")
+}
+FIGURES = STUDY_FIGURES | {"plot_model_diagram", "plot_reconstruction"} | FORECAST_FIGURES
 CHOICE = {"solve_terminal_curve", "choose_forecast_model"}
 MODELS = {"train_autoencoder", "tabulate_reconstruction", "plot_reconstruction", "train_node"} | CHOICE
 FORECASTS = {"forecast_test_set", "forecast_by_lookup"}
@@ -29,7 +37,9 @@ def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
         ("autoencoders", {"train_autoencoder", "tabulate_reconstruction"}),
         ("node", {"train_node"} | CHOICE),
         ("forecasts", {"forecast_test_set", "forecast_by_lookup"}),
-        ("errors", ERRORS | {"plot_reconstruction"}),
+        ("errors", ERRORS),
+        ("figures", FIGURES),
+        ("films", {"film_forecast", "film_scene"}),
         ("check_simulations", {"check_simulation", "tabulate_checks"}),
         ("scenes", {"simulate_scene", "plot_scene", "tabulate_scene_audit"}),
         ("third_dimension", {"compare_third_dimension", "plot_third_dimension"}),
@@ -103,7 +113,7 @@ def test_an_edited_physics_module_reruns_simulations_and_all_that_follows(rerun)
     rerun.append("workflow/sedfiber/physics/bending.py", "# edited")
     planned = rerun.planned()
     assert planned["simulate"] == 10
-    assert {"aggregate_dataset", "solve_terminal_shapes"} | MODELS | FORECASTS | ERRORS <= set(planned)
+    assert {"aggregate_dataset", "solve_terminal_shapes"} | MODELS | FORECASTS | ERRORS | FIGURES <= set(planned)
 
 
 def test_an_edited_learning_module_keeps_the_simulations(rerun):
@@ -115,7 +125,7 @@ def test_an_edited_learning_module_keeps_the_simulations(rerun):
 
 
 def test_an_edited_figure_module_redraws_only_that_figure(rerun):
-    """Tables stay; the manifest follows because it holds the figure's checksum."""
+    """Tables stay; timings and manifest follow, which hold the figure's time and checksum, and their pages."""
     rerun.append("workflow/sedfiber/figures/baselines.py", "# edited")
     assert set(rerun.planned()) == {"plot_baselines"} | AFTER_EVERYTHING
 
@@ -123,8 +133,7 @@ def test_an_edited_figure_module_redraws_only_that_figure(rerun):
 def test_the_style_of_figures_redraws_all_of_them(rerun):
     """One style module for all figures, and no table depends on it."""
     rerun.append("workflow/sedfiber/figures/style.py", "# edited")
-    plots = {"plot_reconstruction", "plot_forecast_errors", "plot_baselines", "plot_error_distribution"}
-    assert set(rerun.planned()) == plots | AFTER_EVERYTHING
+    assert set(rerun.planned()) == FIGURES | AFTER_EVERYTHING
 
 
 def test_the_neural_odes_learning_rate_reruns_them_and_what_follows(rerun):
@@ -133,7 +142,9 @@ def test_the_neural_odes_learning_rate_reruns_them_and_what_follows(rerun):
     planned = rerun.planned()
     assert planned["train_node"] == 1
     assert planned["forecast_test_set"] == 2
-    assert set(planned) == {"train_node", "choose_forecast_model", "forecast_test_set"} | ERRORS | AFTER_EVERYTHING
+    assert not (STUDY_FIGURES | {"plot_reconstruction", "train_autoencoder", "simulate"}) & set(planned)
+    assert {"choose_forecast_model", "plot_model_diagram", "tabulate_key_numbers"} <= set(planned)
+    assert set(planned) >= ERRORS | FORECAST_FIGURES | AFTER_EVERYTHING
 
 
 def test_a_changed_test_value_reruns_its_simulations_but_no_training(rerun):

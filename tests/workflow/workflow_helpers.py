@@ -3,7 +3,10 @@
 import hashlib
 from pathlib import Path
 
-NOT_REPEATABLE = {"timings.csv", "manifest.json"}  # times of jobs, and the checksum of their table
+REPOSITORY = Path(__file__).parents[2]
+
+# times of jobs, the checksum of their table, and the pages of both
+NOT_REPEATABLE = {"timings.csv", "manifest.json", "timings.html", "manifest.html"}
 
 
 def results_of(folder: Path) -> dict[str, str]:

@@ -155,8 +155,8 @@ def short_model(variant, dim, seed):
 EVERY_CORE = 1024
 SCENES = sorted(path.stem for path in (BASE / "scenes").glob("*.yaml"))
 TEST_SETS = ("A", "B")
-FIGURES = ("reconstruction", "forecast_errors", "baselines", "error_distribution")
 NODES = config["node"]["models"]
+FORECAST_MODEL = config["node"]["forecast_model"]
 FORECASTERS = [*NODES, "lookup"]
 AUTOENCODERS = [
     autoencoder(variant, dim, seed)
@@ -193,7 +193,10 @@ def benchmarks():
         *(f"forecast_test_set/{model}_{split}" for model in NODES for split in TEST_SETS),
         *(f"forecast_by_lookup/{split}" for split in TEST_SETS),
         "tabulate_forecast_errors",
-        *(f"plot_{figure}" for figure in FIGURES),
+        "tabulate_regimes",
+        "tabulate_lags",
+        "tabulate_key_numbers",
+        *(f"plot_{figure}" for figure in STUDY_FIGURES),
     ]
     return [f"results/benchmarks/{name}.tsv" for name in names]
 

@@ -221,103 +221,72 @@ rule measure_model_growth:
         " -o {output} > {log} 2>&1"
 
 
-rule plot_cost_integrators:
+use rule plot_problem as plot_cost_integrators with:
     input:
         sources("plot_cost_integrators"),
         table="results/tables/cost_integrators.csv",
     output:
-        svg="results/figures/cost_integrators.svg",
-        png="results/figures/cost_integrators.png",
+        **drawn("cost_integrators"),
     log:
         "results/logs/plot_cost_integrators.log",
     benchmark:
         "results/benchmarks/plot_cost_integrators.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from("plot_cost_integrators", "{table}"),
     message:
         "draw work against precision"
-    shell:
-        "sedfiber plot_cost_integrators {input.table}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
-rule plot_cost_physics:
+use rule plot_problem as plot_cost_physics with:
     input:
         sources("plot_cost_physics"),
         table="results/tables/cost_discretisation.csv",
         growth="results/tables/cost_growth.csv",
         model_growth="results/tables/cost_model_growth.csv",
     output:
-        svg="results/figures/cost_physics.svg",
-        png="results/figures/cost_physics.png",
+        **drawn("cost_physics"),
     log:
         "results/logs/plot_cost_physics.log",
     benchmark:
         "results/benchmarks/plot_cost_physics.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from(
+            "plot_cost_physics", "{table}", "--growth {growth}", "--model-growth {model_growth}"
+        ),
     message:
         "draw what beads and hydrodynamics cost"
-    shell:
-        "sedfiber plot_cost_physics {input.table} --growth {input.growth}"
-        " --model-growth {input.model_growth}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
-rule plot_cost_models:
+use rule plot_problem as plot_cost_models with:
     input:
         sources("plot_cost_models"),
         table="results/tables/cost_models.csv",
     output:
-        svg="results/figures/cost_models.svg",
-        png="results/figures/cost_models.png",
+        **drawn("cost_models"),
     log:
         "results/logs/plot_cost_models.log",
     benchmark:
         "results/benchmarks/plot_cost_models.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from("plot_cost_models", "{table}"),
     message:
         "draw what models cost to train, and what they are worth"
-    shell:
-        "sedfiber plot_cost_models {input.table}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
-rule plot_cost_decision:
+use rule plot_problem as plot_cost_decision with:
     input:
         sources("plot_cost_decision"),
         table="results/tables/cost_forecast.csv",
     output:
-        svg="results/figures/cost_decision.svg",
-        png="results/figures/cost_decision.png",
+        **drawn("cost_decision"),
     log:
         "results/logs/plot_cost_decision.log",
     benchmark:
         "results/benchmarks/plot_cost_decision.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from("plot_cost_decision", "{table}"),
     message:
         "draw what to choose for which accuracy"
-    shell:
-        "sedfiber plot_cost_decision {input.table}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
 rule cost:

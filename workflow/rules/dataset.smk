@@ -72,6 +72,30 @@ rule aggregate_dataset:
         " -o {output} > {log} 2>&1"
 
 
+rule tabulate_regimes:
+    input:
+        sources("tabulate_regimes"),
+        splits=[test_files(split) for split in STUDY.splits],
+    output:
+        "results/tables/regimes.csv",
+    log:
+        "results/logs/tabulate_regimes.log",
+    benchmark:
+        "results/benchmarks/tabulate_regimes.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=5,
+    params:
+        splits=" ".join(" ".join(["--split", *test_files(split)]) for split in STUDY.splits),
+    message:
+        "tabulate how each fall turns and bends"
+    shell:
+        "sedfiber tabulate_regimes {params.splits} -o {output} > {log} 2>&1"
+
+
 rule dataset:
     input:
         expand("results/dataset/{split}.parquet", split=STUDY.splits),

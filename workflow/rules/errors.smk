@@ -32,3 +32,36 @@ rule tabulate_forecast_errors:
         " {params.forecasters} --forecast-errors {output.forecast_errors}"
         " --source-errors {output.source_errors} --lookup-errors {output.lookup_errors}"
         " --ensemble-errors {output.ensemble_errors} --baselines {output.baselines} > {log} 2>&1"
+
+
+rule tabulate_lags:
+    input:
+        sources("tabulate_lags"),
+        truth=expand("results/dataset/{split}.parquet", split=TEST_SETS),
+        shapes=expand("results/terminal_shapes/{split}.parquet", split=TEST_SETS),
+        forecasts=rules.forecasts.input,
+    output:
+        "results/tables/lags.csv",
+    log:
+        "results/logs/tabulate_lags.log",
+    benchmark:
+        "results/benchmarks/tabulate_lags.tsv"
+    conda:
+        "../../envs/learning.yaml"
+    threads: 1
+    resources:
+        mem_mb=6000,
+        runtime=10,
+    params:
+        forecasters=" ".join(forecaster_words(name) for name in FORECASTERS),
+    message:
+        "tabulate the lag of all forecasts"
+    shell:
+        "sedfiber tabulate_lags --truth {input.truth} --shapes {input.shapes}"
+        " {params.forecasters} -o {output} > {log} 2>&1"
+
+
+rule errors:
+    input:
+        rules.tabulate_forecast_errors.output,
+        rules.tabulate_lags.output,

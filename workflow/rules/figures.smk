@@ -1,41 +1,17 @@
-# Figures are drawn from tables alone.
+# The figures of the study, each drawn from files alone. All figure rules, here and in other files,
+# are the first one with other files and other words.
 
 
-rule plot_reconstruction:
+rule plot_problem:
     input:
-        sources("plot_reconstruction"),
-        table="results/tables/reconstruction.csv",
+        sources("plot_problem"),
+        fall=trajectory(*STUDY.shown_fall),
     output:
-        svg="results/figures/reconstruction.svg",
-        png="results/figures/reconstruction.png",
+        **drawn("problem"),
     log:
-        "results/logs/plot_reconstruction.log",
+        "results/logs/plot_problem.log",
     benchmark:
-        "results/benchmarks/plot_reconstruction.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
-    message:
-        "draw the reconstruction loss"
-    shell:
-        "sedfiber plot_reconstruction {input.table}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
-
-
-rule plot_forecast_errors:
-    input:
-        sources("plot_forecast_errors"),
-        table="results/tables/ensemble_errors.csv",
-    output:
-        svg="results/figures/forecast_errors.svg",
-        png="results/figures/forecast_errors.png",
-    log:
-        "results/logs/plot_forecast_errors.log",
-    benchmark:
-        "results/benchmarks/plot_forecast_errors.tsv"
+        "results/benchmarks/plot_problem.tsv"
     conda:
         "../../envs/figures.yaml"
     threads: 1
@@ -43,66 +19,110 @@ rule plot_forecast_errors:
         mem_mb=1000,
         runtime=5,
     params:
-        model=config["node"]["forecast_model"],
+        call=drawn_from("plot_problem", "{fall}"),
     message:
-        "draw the ensemble-mean error over the settling period"
+        "draw the problem"
     shell:
-        "sedfiber plot_forecast_errors {input.table} --model {params.model}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
+        "sedfiber {params.call} --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
-rule plot_baselines:
+use rule plot_problem as plot_shapes_by_angle with:
     input:
-        sources("plot_baselines"),
-        table="results/tables/baselines.csv",
+        sources("plot_shapes_by_angle"),
+        dataset="results/dataset/train.parquet",
     output:
-        svg="results/figures/baselines.svg",
-        png="results/figures/baselines.png",
+        **drawn("shapes_by_angle"),
     log:
-        "results/logs/plot_baselines.log",
+        "results/logs/plot_shapes_by_angle.log",
     benchmark:
-        "results/benchmarks/plot_baselines.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+        "results/benchmarks/plot_shapes_by_angle.tsv"
+    params:
+        call=drawn_from("plot_shapes_by_angle", "{dataset}", f"--B {STUDY.shown_fall[0]}"),
     message:
-        "draw worst and median error beside the baseline"
-    shell:
-        "sedfiber plot_baselines {input.table}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
+        "draw the shapes along the falls of one ℬ"
 
 
-rule plot_error_distribution:
+use rule plot_problem as plot_centre_paths with:
     input:
-        sources("plot_error_distribution"),
-        table="results/tables/forecast_errors.csv",
+        sources("plot_centre_paths"),
+        dataset="results/dataset/train.parquet",
     output:
-        svg="results/figures/error_distribution.svg",
-        png="results/figures/error_distribution.png",
+        **drawn("centre_paths"),
     log:
-        "results/logs/plot_error_distribution.log",
+        "results/logs/plot_centre_paths.log",
     benchmark:
-        "results/benchmarks/plot_error_distribution.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+        "results/benchmarks/plot_centre_paths.tsv"
+    params:
+        call=drawn_from("plot_centre_paths", "{dataset}", f"--B {STUDY.shown_fall[0]}"),
     message:
-        "draw the largest error of every trajectory"
-    shell:
-        "sedfiber plot_error_distribution {input.table}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
+        "draw the paths of the centre bead at one ℬ"
 
 
-rule errors:
+use rule plot_problem as plot_shapes_by_flexibility with:
     input:
-        rules.tabulate_forecast_errors.output,
-        rules.plot_reconstruction.output,
-        rules.plot_forecast_errors.output,
-        rules.plot_baselines.output,
-        rules.plot_error_distribution.output,
+        sources("plot_shapes_by_flexibility"),
+        dataset="results/dataset/train.parquet",
+        regimes="results/tables/regimes.csv",
+    output:
+        **drawn("shapes_by_flexibility"),
+    log:
+        "results/logs/plot_shapes_by_flexibility.log",
+    benchmark:
+        "results/benchmarks/plot_shapes_by_flexibility.tsv"
+    params:
+        call=drawn_from(
+            "plot_shapes_by_flexibility",
+            "{dataset}",
+            "{regimes}",
+            f"--angle-index {STUDY.shown_fall[1]}",
+        ),
+    message:
+        "draw the shapes from one angle, and their regimes"
+
+
+use rule plot_problem as plot_data_sets with:
+    input:
+        sources("plot_data_sets"),
+        table="results/tables/trajectories.csv",
+    output:
+        **drawn("data_sets"),
+    log:
+        "results/logs/plot_data_sets.log",
+    benchmark:
+        "results/benchmarks/plot_data_sets.tsv"
+    params:
+        call=drawn_from("plot_data_sets", "{table}"),
+    message:
+        "draw which fall belongs to which data set"
+
+
+use rule plot_problem as plot_model_diagram with:
+    input:
+        sources("plot_model_diagram"),
+        card=model_files("results/models/forecast")[1],
+    output:
+        **drawn("model_diagram"),
+    log:
+        "results/logs/plot_model_diagram.log",
+    benchmark:
+        "results/benchmarks/plot_model_diagram.tsv"
+    params:
+        call=drawn_from("plot_model_diagram", "{card}"),
+    message:
+        "draw the parts of the reduced model"
+
+
+use rule plot_problem as plot_reconstruction with:
+    input:
+        sources("plot_reconstruction"),
+        table="results/tables/reconstruction.csv",
+    output:
+        **drawn("reconstruction"),
+    log:
+        "results/logs/plot_reconstruction.log",
+    benchmark:
+        "results/benchmarks/plot_reconstruction.tsv"
+    params:
+        call=drawn_from("plot_reconstruction", "{table}"),
+    message:
+        "draw the reconstruction loss, and the four variants"

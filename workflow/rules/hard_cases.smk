@@ -48,27 +48,20 @@ rule tabulate_hard_cases:
         "sedfiber tabulate_hard_cases {input.cases} -o {output} > {log} 2>&1"
 
 
-rule plot_hard_cases:
+use rule plot_problem as plot_hard_cases with:
     input:
         sources("plot_hard_cases"),
         table="results/tables/hard_cases.csv",
     output:
-        svg="results/figures/hard_cases.svg",
-        png="results/figures/hard_cases.png",
+        **drawn("hard_cases"),
     log:
         "results/logs/plot_hard_cases.log",
     benchmark:
         "results/benchmarks/plot_hard_cases.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from("plot_hard_cases", "{table}"),
     message:
         "draw how far every hard case stays from its bounds"
-    shell:
-        "sedfiber plot_hard_cases {input.table} --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
 rule hard_cases:

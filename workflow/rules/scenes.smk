@@ -30,7 +30,12 @@ rule plot_scene:
         sources("plot_scene"),
         trajectory="results/scenes/{scene}.parquet",
     output:
-        svg="results/figures/scenes/{scene}.svg",
+        svg=report(
+            "results/figures/scenes/{scene}.svg",
+            caption="../report/scene.rst",
+            category="6. Beyond the study",
+            labels={"figure": "More: scene {scene}"},
+        ),
         png="results/figures/scenes/{scene}.png",
     log:
         "results/logs/plot_scene/{scene}.log",
@@ -105,29 +110,21 @@ rule compare_third_dimension:
         " -o {output.table} --growth {output.growth} > {log} 2>&1"
 
 
-rule plot_third_dimension:
+use rule plot_problem as plot_third_dimension with:
     input:
         sources("plot_third_dimension"),
         table="results/tables/third_dimension.csv",
         growth="results/tables/third_dimension_growth.csv",
     output:
-        svg="results/figures/third_dimension.svg",
-        png="results/figures/third_dimension.png",
+        **drawn("third_dimension"),
     log:
         "results/logs/plot_third_dimension.log",
     benchmark:
         "results/benchmarks/plot_third_dimension.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from("plot_third_dimension", "{table}", "--growth {growth}"),
     message:
         "draw where the third dimension begins to matter"
-    shell:
-        "sedfiber plot_third_dimension {input.table} --growth {input.growth}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
 rule third_dimension:
@@ -158,27 +155,20 @@ rule measure_effects:
         "sedfiber measure_effects {params.options} -o {output} > {log} 2>&1"
 
 
-rule plot_effects:
+use rule plot_problem as plot_effects with:
     input:
         sources("plot_effects"),
         table="results/tables/effects.csv",
     output:
-        svg="results/figures/effects.svg",
-        png="results/figures/effects.png",
+        **drawn("effects"),
     log:
         "results/logs/plot_effects.log",
     benchmark:
         "results/benchmarks/plot_effects.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from("plot_effects", "{table}"),
     message:
         "draw cost and influence of every effect"
-    shell:
-        "sedfiber plot_effects {input.table} --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
 rule benchmark_parts:

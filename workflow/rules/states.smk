@@ -26,29 +26,21 @@ rule trace_states:
         " -o {output.table} --thresholds {output.thresholds} > {log} 2>&1"
 
 
-rule plot_states:
+use rule plot_problem as plot_states with:
     input:
         sources("plot_states"),
         table="results/tables/states.csv",
         thresholds="results/tables/state_thresholds.csv",
     output:
-        svg="results/figures/states.svg",
-        png="results/figures/states.png",
+        **drawn("states"),
     log:
         "results/logs/plot_states.log",
     benchmark:
         "results/benchmarks/plot_states.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
+    params:
+        call=drawn_from("plot_states", "{table}", "--thresholds {thresholds}"),
     message:
         "draw the steady states and where they are stable"
-    shell:
-        "sedfiber plot_states {input.table} --thresholds {input.thresholds}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
 
 
 rule states:

@@ -28,6 +28,7 @@ class Study:
         study = cls(config)
         study._require_apart()
         study._require_sound_node()
+        study._require_shown_fall()
         return study
 
     def B_values(self, split: str) -> list[str]:
@@ -66,6 +67,19 @@ class Study:
                 NodeSettings(**settings)
             except InputError as error:
                 sys.exit(f"config: {place}.{error}")
+
+    def _require_shown_fall(self) -> None:
+        """The figures of the study show falls that it trains on, as the source's do."""
+        for key, value in self.config["figures"].items():
+            trained = self.config["study"]["train"][key]
+            if value not in trained:
+                sys.exit(f"config: figures.{key}: {value} is not allowed; give one of {', '.join(map(str, trained))}")
+
+    @property
+    def shown_fall(self) -> tuple[str, int]:
+        """ℬ and angle index of the falls that figures 1 to 4 show."""
+        shown = self.config["figures"]
+        return number_name(shown["B"]), shown["angle_index"]
 
     @property
     def simulate_options(self) -> str:

@@ -44,7 +44,7 @@ def run(args: argparse.Namespace) -> None:
     truths = [read_dataset(*pair) for pair in zip(args.truth, args.shapes, strict=True)]
     tables: dict[str, list[pd.DataFrame]] = {name: [] for name in OUTPUTS}
     for words in args.forecaster:
-        who, paths = _forecaster(words, len(truths))
+        who, paths = forecaster_and_files(words, len(truths))
         for truth, shapes, path in zip(truths, args.shapes, paths, strict=True):
             _add(tables, who, truth, read_dataset(path, shapes))
     for name, parts in tables.items():
@@ -52,7 +52,7 @@ def run(args: argparse.Namespace) -> None:
         write_csv(table, getattr(args, name))
 
 
-def _forecaster(words: list[str], n_splits: int) -> tuple[Forecaster, list[Path]]:
+def forecaster_and_files(words: list[str], n_splits: int) -> tuple[Forecaster, list[Path]]:
     if len(words) != 3 + n_splits or words[1] not in _ERRORS_OF:
         raise InputError(f"forecaster: {' '.join(words)!r} is not allowed; give name, recipe, dimension, files")
     name, recipe, dim, *paths = words

@@ -30,12 +30,12 @@ def run(args: argparse.Namespace) -> None:
     manifest = {
         "commit": args.commit,
         "config": json.loads(args.config),
-        "lock_file": {"name": args.lock.name, "sha256": _sha256(args.lock)},
+        "lock_file": {"name": args.lock.name, "sha256": sha256(args.lock)},
         "machine": {"platform": platform.platform(), "processor": _processor()},
         "packages": _versions(args.lock),
         "python": platform.python_version(),
         "rule_graph": _edges(args.rule_graph.read()),
-        "sha256": {str(path): _sha256(path) for path in sorted(args.outputs)},
+        "sha256": {str(path): sha256(path) for path in sorted(args.outputs)},
     }
     write_text(args.output, json.dumps(manifest, indent=2, sort_keys=True, ensure_ascii=False) + "\n")
 
@@ -47,7 +47,7 @@ def _edges(dot: str) -> list[str]:
     return sorted(f"{names[made]} -> {names[used]}" for made, used in pairs)
 
 
-def _sha256(path: Path) -> str:
+def sha256(path: Path) -> str:
     try:
         with path.open("rb") as handle:
             return hashlib.file_digest(handle, "sha256").hexdigest()

@@ -5,11 +5,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from sedfiber.bars import WORST_BARS
 from sedfiber.figures.forecasters import Forecaster, forecasters
 from sedfiber.figures.style import B_SYMBOL, BLACK, GREY, PAGE_WIDTH, SET_TITLES, letter_panel, place_legend
 from sedfiber.figures.table_input import in_set, select_columns
 
-BARS = {"A": 5e-4, "B": 5e-3}  # what this study asks of the worst trajectory at d = 4
 GROUP_HEIGHT = 0.75  # share of the distance between two ℬ that is taken by the forecasters' rows
 
 
@@ -23,7 +23,7 @@ def draw_baselines(table: pd.DataFrame) -> Figure:
         letter_panel(axes, letter, title)
         _draw_set(axes, in_set(rows, test_set), shown)
         axes.axvline(
-            BARS[test_set],
+            WORST_BARS[test_set],
             color=BLACK,
             linestyle=(0, (2, 2)),
             linewidth=1.0,

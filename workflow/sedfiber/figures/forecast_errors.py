@@ -6,6 +6,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from sedfiber.bars import ENSEMBLE_BARS, SOURCE_BOUND
 from sedfiber.figures.forecasters import Forecaster, forecasters
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -24,8 +25,6 @@ from sedfiber.figures.table_input import in_set, select_columns
 from sedfiber.validation import one_of, positive_number
 
 ALL = "all"  # in column B: the mean over every ℬ of a set
-SOURCE_BOUND = 0.1
-BARS = {"A": 1e-4, "B": 1e-3}  # what this study asks of the ensemble mean at any time
 PARTS = {"E_shape": ("-", r"$E_\mathrm{shape}$"), "E_pos": (":", r"$E_\mathrm{pos}$")}
 
 
@@ -92,7 +91,7 @@ def _draw_mean(axes: Axes, rows: pd.DataFrame, forecaster: Forecaster, column: s
 
 def _draw_levels(axes: Axes, test_set: str) -> None:
     draw_level(axes, SOURCE_BOUND, VERMILION, (0, (6, 3)), "source's bound, 0.1")
-    draw_level(axes, BARS[test_set], BLACK, (0, (2, 2)), "this study's bar, $10^{-4}$ on A, $10^{-3}$ on B")
+    draw_level(axes, ENSEMBLE_BARS[test_set], BLACK, (0, (2, 2)), "this study's bar, $10^{-4}$ on A, $10^{-3}$ on B")
 
 
 def _add_part_keys(axes: Axes) -> None:

@@ -1,9 +1,10 @@
-"""Reconstruction loss against latent dimension: the four variants and POD, both test sets."""
+"""Reconstruction loss against latent dimension, and block diagrams of the variants that it compares."""
 
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
+from sedfiber.bars import RECONSTRUCTION_BAR
 from sedfiber.errors import InputError
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -20,9 +21,11 @@ from sedfiber.figures.style import (
     place_legend,
 )
 from sedfiber.figures.table_input import in_set, select_columns
+from sedfiber.figures.variant_diagrams import draw_variant
 
-BAR = 1e-4  # the loss this study asks of decoder ℬ at d = 4
 DODGE = 0.06  # shift of each curve along d, so that bars of one d stand side by side
+WORST = "loss_worst_sample"  # which the mean over samples hides
+CHOSEN = "decoder"  # the variant whose worst sample is shown: the forecasts stand on it
 
 # (method, variant): label, colour, marker
 CURVES = {
@@ -35,22 +38,37 @@ CURVES = {
 
 
 def draw_reconstruction(table: pd.DataFrame) -> Figure:
-    """Two panels, sets A and B: mean loss over seeds, bars from the least to the greatest."""
-    rows = select_columns(table, ("method", "variant", "test_set"), ("latent_dim", "seed", "loss"))
+    """(a) loss on sets A and B, mean over seeds with bars from the least to the greatest; (b)–(e) the variants."""
+    numbers = ("latent_dim", "seed", "loss", *([WORST] if WORST in table else []))
+    rows = select_columns(table, ("method", "variant", "test_set"), numbers)
     _require_known(rows)
-    figure = Figure(figsize=(PAGE_WIDTH, 3.2))
-    panels = figure.subplots(1, 2, sharex=True, sharey=True)
-    for axes, letter, (test_set, title) in zip(panels, "ab", SET_TITLES.items(), strict=True):
-        letter_panel(axes, letter, title)
-        _draw_set(axes, in_set(rows, test_set))
-        axes.set(yscale="log", xlabel="latent dimension d", xticks=sorted(rows["latent_dim"].unique()))
-    panels[0].set_ylabel("reconstruction loss  ⟨‖X̌ − D(E(X̌))‖²⟩\n(lengths in units of L/2)")
-    place_legend(figure, *panels, columns=6)
+    figure = Figure(figsize=(PAGE_WIDTH, 4.6))
+    upper, lower = figure.subfigures(2, 1, height_ratios=(3.35, 1.25))
+    _draw_losses(upper, rows)
+    _draw_variants(lower)
     return figure
 
 
+def _draw_losses(figure: SubFigure, rows: pd.DataFrame) -> None:
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    for axes, (test_set, title) in zip(panels, SET_TITLES.items(), strict=True):
+        axes.set_title(title, loc="left")
+        _draw_set(axes, in_set(rows, test_set))
+        axes.set(yscale="log", xlabel="latent dimension d", xticks=sorted(rows["latent_dim"].unique()))
+    letter_panel(panels[0], "a", SET_TITLES["A"])
+    panels[0].set_ylabel("reconstruction loss  ⟨‖X̌ − D(E(X̌))‖²⟩\n(lengths in units of L/2)")
+    place_legend(figure, *panels, columns=4)
+
+
+def _draw_variants(figure: SubFigure) -> None:
+    variants = [(variant, *look) for (method, variant), look in CURVES.items() if method == "autoencoder"]
+    for axes, letter, (variant, label, color, _) in zip(figure.subplots(1, 4), "bcde", variants, strict=True):
+        letter_panel(axes, letter, label)
+        draw_variant(axes, variant, color)
+
+
 def _draw_set(axes: Axes, rows: pd.DataFrame) -> None:
-    draw_level(axes, BAR, GREY, (0, (2, 2)), "bar at d = 4, $10^{-4}$")
+    draw_level(axes, RECONSTRUCTION_BAR, GREY, (0, (2, 2)), "bar at d = 4, $10^{-4}$")
     for place, ((method, variant), (label, color, marker)) in enumerate(CURVES.items()):
         chosen = rows[(rows["method"] == method) & (rows["variant"] == variant)]
         if chosen.empty:
@@ -58,7 +76,11 @@ def _draw_set(axes: Axes, rows: pd.DataFrame) -> None:
         loss = chosen.groupby("latent_dim")["loss"].agg(["mean", "min", "max"])
         spread = (loss["mean"] - loss["min"], loss["max"] - loss["mean"])
         shifted = loss.index + DODGE * (place - (len(CURVES) - 1) / 2)
-        axes.errorbar(shifted, loss["mean"], spread, color=color, marker=marker, capsize=1.5, label=label)
+        look = {"marker": marker, "markersize": 3.8, "capsize": 2.0}
+        axes.errorbar(shifted, loss["mean"], spread, color=color, label=label, **look)
+        if variant == CHOSEN and WORST in chosen:
+            worst = chosen.groupby("latent_dim")[WORST].max()
+            axes.plot(shifted, worst, color=color, linewidth=0.9, linestyle=":", label=f"{label}, worst sample")
 
 
 def _require_known(rows: pd.DataFrame) -> None:

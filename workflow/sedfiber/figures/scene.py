@@ -22,7 +22,7 @@ _FRAME = PAGE_WIDTH / SNAPSHOTS  # inches
 def draw_scene(run: Trajectory, title: str) -> Figure:
     """A row of snapshots, seen along z and, in volume, along y too; below, size and place over time."""
     views = [(0, 1)] if run.metadata["scene"]["space"] == "plane" else [(0, 1), (0, 2)]
-    flat = [_Frames(run.fibers[..., view]) for view in views]
+    flat = [Frames(run.fibers[..., view]) for view in views]
     heights = [_FRAME * frames.shape for frames in flat]
     figure = Figure(figsize=(PAGE_WIDTH, sum(heights) + 0.25 * len(views) + 2.6))
     upper, lower = figure.add_gridspec(2, 1, height_ratios=[sum(heights) + 0.25 * len(views), 2.0])
@@ -36,7 +36,7 @@ def draw_scene(run: Trajectory, title: str) -> Figure:
     return figure
 
 
-class _Frames:
+class Frames:
     """One view (T, fibers, N, 2) of a run: where each frame's middle is, and how far all of them reach."""
 
     def __init__(self, flat: Array):
@@ -62,7 +62,7 @@ def _samples(t: Array, seen: Array) -> Array:
 
 
 def _draw_snapshots(
-    row: list[Axes], run: Trajectory, frames: _Frames, view: tuple, samples: Array, with_times: bool
+    row: list[Axes], run: Trajectory, frames: Frames, view: tuple, samples: Array, with_times: bool
 ) -> None:
     """Frames of one size at one scale, without ticks; the words beside the first tell the scale."""
     for axes, k in zip(row, samples, strict=True):
@@ -72,13 +72,13 @@ def _draw_snapshots(
         x, y = frames.middle[k]
         axes.set(xlim=(x - frames.reach[0], x + frames.reach[0]), ylim=(y - frames.reach[1], y + frames.reach[1]))
         axes.set(aspect="equal", xticks=[], yticks=[])
-        _draw_wall(axes, run.metadata["scene"].get("wall"), view)
+        draw_wall(axes, run.metadata["scene"].get("wall"), view)
         if with_times:
             axes.set_title(f"t = {run.t[k]:.4g}", fontsize=7)
     row[0].set_ylabel(f"{'xyz'[view[1]]} over x,\n{2.0 * frames.reach[0]:.0f} a wide", fontsize=6.5)
 
 
-def _draw_wall(axes: Axes, wall: dict | None, view: tuple) -> None:
+def draw_wall(axes: Axes, wall: dict | None, view: tuple) -> None:
     """The solid behind the wall, where the wall is seen edge-on."""
     if wall is None:
         return

@@ -1,0 +1,59 @@
+# Films: every test trajectory, true and forecast, and every scene. `all` has a contact sheet instead.
+
+
+rule film_forecast:
+    input:
+        sources("film_forecast"),
+        truth="results/dataset/{split}.parquet",
+        forecast=forecasts_of("{split}"),
+    output:
+        "results/films/{split}/B{B}_k{k}.webp",
+    log:
+        "results/logs/film_forecast/{split}_B{B}_k{k}.log",
+    benchmark:
+        "results/benchmarks/film_forecast/{split}_B{B}_k{k}.tsv"
+    conda:
+        "../../envs/figures.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "film the forecast at B={wildcards.B}, theta0={wildcards.k}π/48"
+    shell:
+        "sedfiber film_forecast --truth {input.truth} --forecast {input.forecast}"
+        " --B {wildcards.B} --angle-index {wildcards.k} -o {output} > {log} 2>&1"
+
+
+rule film_scene:
+    input:
+        sources("film_scene"),
+        trajectory="results/scenes/{scene}.parquet",
+    output:
+        "results/films/scenes/{scene}.webp",
+    log:
+        "results/logs/film_scene/{scene}.log",
+    benchmark:
+        "results/benchmarks/film_scene/{scene}.tsv"
+    conda:
+        "../../envs/figures.yaml"
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        title=lambda wildcards: wildcards.scene.replace("_", " "),
+    message:
+        "film scene {wildcards.scene}"
+    shell:
+        "sedfiber film_scene {input.trajectory} --title {params.title:q} -o {output} > {log} 2>&1"
+
+
+rule films:
+    input:
+        [
+            f"results/films/{split}/B{B}_k{k}.webp"
+            for split in TEST_SETS
+            for B, k in STUDY.runs(split)
+        ],
+        expand("results/films/scenes/{scene}.webp", scene=SCENES),

@@ -1,0 +1,28 @@
+# A fresh run against what the repository shows. `make publish` copies a run there.
+
+
+rule compare_published:
+    input:
+        sources("compare_published"),
+        fresh=expand("results/tables/{table}.csv", table=PUBLISHED_TABLES),
+        published=expand("results/published/tables/{table}.csv", table=PUBLISHED_TABLES),
+    output:
+        "results/tables/published_comparison.csv",
+    log:
+        "results/logs/compare_published.log",
+    benchmark:
+        "results/benchmarks/compare_published.tsv"
+    conda:
+        "../../envs/analysis.yaml"
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        fresh=lambda wildcards, input: Path(input.fresh[0]).parent,
+        published=lambda wildcards, input: Path(input.published[0]).parent,
+    message:
+        "compare this run's numbers with the published ones"
+    shell:
+        "sedfiber compare_published --published {params.published} --fresh {params.fresh}"
+        " -o {output} 2>&1 | tee {log}"

@@ -1,0 +1,1 @@
+"""Films of falls and scenes, as animated WebP."""

@@ -1,0 +1,80 @@
+"""The results that the repository shows: copied from a full run of the committed code, or refused.
+
+Published are the manifest, every table and the SVG of every figure that the manifest has a checksum
+of, so that what is shown is what one run made.
+"""
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+from sedfiber.commands.write_manifest import sha256
+from sedfiber.errors import InputError
+
+# What a result depends on; documents and tests may change after the run.
+CODE = ("Snakefile", "config.yaml", "workflow", "envs", "profiles")
+MANIFEST = "manifest.json"
+_SHOWN = {"tables": ".csv", "figures": ".svg"}
+
+
+def publish(results: Path, into: Path, repository: Path) -> list[Path]:
+    """Copy what is shown to ``into``, replacing what was there; returns the new files.
+
+    Raises InputError, and writes nothing, when the run is not from the committed code or a file is
+    not the one that the manifest has the checksum of.
+    """
+    manifest = _read(results / MANIFEST)
+    _require_committed(manifest["commit"], repository)
+    chosen = {path: digest for path, digest in manifest["sha256"].items() if _is_shown(Path(path))}
+    for path, digest in chosen.items():
+        if sha256(results.parent / path) != digest:
+            raise InputError(f"publish: {path} is not the file of the manifest; run snakemake again")
+    return _replace(into, [results.parent / path for path in chosen] + [results / MANIFEST], results)
+
+
+def _is_shown(path: Path) -> bool:
+    """``results/tables/x.csv`` and ``results/figures/x.svg``."""
+    return len(path.parts) == 3 and _SHOWN.get(path.parts[1]) == path.suffix
+
+
+def _read(path: Path) -> dict:
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        reason = str(error).splitlines()[0]
+        raise InputError(f"publish: no manifest of a full run ({reason}); run snakemake -j2 first") from None
+
+
+def _require_committed(commit: str, repository: Path) -> None:
+    """The run's commit has the code that HEAD has, and no file of the code differs from it now."""
+    if commit == "unknown" or commit.endswith("-dirty"):
+        raise InputError(f"publish: the run is of {commit}, not of committed code; commit, and run snakemake -j2 again")
+    changed = _git(repository, "diff", "--name-only", commit, "--", *CODE)
+    changed += _git(repository, "ls-files", "--others", "--exclude-standard", "--", *CODE)
+    if changed:
+        what = f"{changed[0]} differs from the code of the run ({commit[:9]})"
+        raise InputError(f"publish: {what}; commit, and run snakemake -j2 again")
+
+
+def _git(repository: Path, *words: str) -> list[str]:
+    run = subprocess.run(["git", "-C", str(repository), *words], capture_output=True, text=True)
+    if run.returncode != 0:
+        raise InputError(f"publish: git {words[0]} failed: {run.stderr.strip().splitlines()[0]}")
+    return run.stdout.splitlines()
+
+
+def _replace(into: Path, files: list[Path], results: Path) -> list[Path]:
+    """All in a folder beside, then renamed: a kill leaves the old folder or the new one."""
+    fresh, old = into.with_name(into.name + ".new"), into.with_name(into.name + ".old")
+    for folder in (fresh, old):
+        shutil.rmtree(folder, ignore_errors=True)
+    for file in files:
+        target = fresh / file.relative_to(results)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(file, target)
+    if into.exists():
+        into.rename(old)
+    fresh.rename(into)
+    shutil.rmtree(old, ignore_errors=True)
+    return sorted(path for path in into.rglob("*") if path.is_file())
