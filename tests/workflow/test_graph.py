@@ -163,3 +163,13 @@ def test_a_deleted_trajectory_is_simulated_again(rerun):
     planned = rerun.planned()
     assert planned["simulate"] == 1 and planned["aggregate_dataset"] == 1
     assert "solve_terminal_shapes" not in planned
+
+
+def test_each_figure_is_drawn_alone_from_the_files_that_are_there(rerun):
+    """One job and no other, whichever is missing."""
+    figures = sorted((rerun.folder / "results/figures").glob("*.svg"))
+    assert len(figures) == len(FIGURES)
+    for figure in figures:
+        figure.unlink()
+        name = f"results/figures/{figure.name}"
+        assert rerun.planned(name) == {f"plot_{figure.stem}": 1}
