@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -11,7 +12,8 @@ from pathlib import Path
 
 import pandas as pd
 import pytest
-from workflow_helpers import results_of
+from PIL import Image
+from workflow_helpers import REPOSITORY, results_of
 
 import sedfiber
 
@@ -35,6 +37,37 @@ def test_tables_have_a_row_for_everything(finished):
     assert set(pd.read_csv(tables / "baselines.csv")["recipe"]) == {"rollout", "source", "lookup"}
     timings = pd.read_csv(tables / "timings.csv").set_index("stage")
     assert timings.loc["simulate", "jobs"] == 10 and timings.loc["train_autoencoder", "jobs"] == 8
+
+
+def test_published_tables_have_the_columns_of_a_fresh_run(finished):
+    """What the repository shows is what this code makes, column by column and table by table."""
+    published = {path.name: path for path in (REPOSITORY / "results/published/tables").glob("*.csv")}
+    fresh = {path.name: path for path in (finished.folder / "results/tables").glob("*.csv")}
+    assert published.keys() == fresh.keys()
+    for name, path in fresh.items():
+        assert list(pd.read_csv(published[name]).columns) == list(pd.read_csv(path).columns), name
+
+
+def test_a_run_compares_itself_with_what_was_published(rerun):
+    """Within tolerances of itself; a changed settling time stops it with one line."""
+    published = rerun.folder / "results/published/tables"
+    shutil.copytree(rerun.folder / "results/tables", published)
+    assert rerun.snakemake("-j1", "compare_published").returncode == 0
+    table = pd.read_csv(rerun.folder / "results/tables/published_comparison.csv")
+    assert table["within"].all() and (table["largest_factor"] == 1.0).all()
+    runs = pd.read_csv(published / "trajectories.csv")
+    runs.assign(settling_time=1.01 * runs["settling_time"]).to_csv(published / "trajectories.csv", index=False)
+    failed = rerun.snakemake("-j1", "compare_published")
+    assert failed.returncode != 0
+    assert "settling times: 50 4 differs by a factor of 1.01, allowed is 1.00001" in failed.stdout + failed.stderr
+
+
+def test_films_play(rerun):
+    """A rule apart from `all`; one film of a test trajectory, with frames enough to see it fall."""
+    film = "results/films/A/B50_k8.webp"
+    assert rerun.snakemake("-j1", film).returncode == 0
+    with Image.open(rerun.folder / film) as frames:
+        assert frames.format == "WEBP" and frames.n_frames > 20
 
 
 def test_the_data_set_reads_as_one_with_split_labels(finished):

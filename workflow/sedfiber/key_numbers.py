@@ -6,6 +6,7 @@ upper bound, or nothing) and met (yes, no, or nothing where there is no bar).  E
 """
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import pandas as pd
 
@@ -76,7 +77,7 @@ def _of_simulations(runs: pd.DataFrame) -> list[dict]:
 def _of_regimes(regimes: pd.DataFrame, angle_index: int) -> list[dict]:
     """Where rotation ends and where snaking begins, among the training ℬ."""
     chosen = regimes[(regimes["split"] == "train") & (regimes["angle_index"] == angle_index)]
-    where = f"from θ₀ = {angle_index}π/48"
+    where = f"from θ₀ = {Fraction(angle_index, 48)} π"
     rows = []
     for regime, words, pick in (("rotation", "largest", "max"), ("snaking", "least", "min")):
         found = chosen.loc[chosen["regime"] == regime, "B"]

@@ -3,21 +3,16 @@
 import argparse
 from pathlib import Path
 
-from sedfiber.atomic_file import require_writable
+from sedfiber.figures.drawing import add_output_arguments, write_drawing
 from sedfiber.figures.model_diagram import draw_model_diagram, read_sizes
-from sedfiber.figures.style import save_figure
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The model's card, the two files to write."""
     parser.add_argument("card", type=Path, help="card.json of a trained forecast model")
-    parser.add_argument("--svg", type=Path, required=True, help="SVG file to write")
-    parser.add_argument("--png", type=Path, required=True, help="PNG file to write")
+    add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> None:
     """Draw and write both files."""
-    for path in (args.svg, args.png):
-        require_writable(path)
-    sizes = read_sizes(args.card)
-    save_figure(lambda: draw_model_diagram(sizes), args.svg, args.png)
+    write_drawing(args, lambda: draw_model_diagram(read_sizes(args.card)))

@@ -3,9 +3,8 @@
 import argparse
 from pathlib import Path
 
-from sedfiber.atomic_file import require_writable
+from sedfiber.figures.drawing import add_output_arguments, write_drawing
 from sedfiber.figures.scene import draw_scene
-from sedfiber.figures.style import save_figure
 from sedfiber.trajectory_file import read_trajectory
 
 
@@ -13,13 +12,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run, its title, the two files to write."""
     parser.add_argument("trajectory", type=Path, help="trajectory file to draw")
     parser.add_argument("--title", default="", help="words above the picture")
-    parser.add_argument("--svg", type=Path, required=True, help="SVG file to write")
-    parser.add_argument("--png", type=Path, required=True, help="PNG file to write")
+    add_output_arguments(parser)
 
 
 def run(args: argparse.Namespace) -> None:
     """Draw and write both files."""
-    for path in (args.svg, args.png):
-        require_writable(path)
-    trajectory = read_trajectory(args.trajectory)
-    save_figure(lambda: draw_scene(trajectory, args.title), args.svg, args.png)
+    write_drawing(args, lambda: draw_scene(read_trajectory(args.trajectory), args.title))

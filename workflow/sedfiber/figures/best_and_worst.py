@@ -10,10 +10,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from sedfiber._typing import Array
-from sedfiber.atomic_file import require_writable
 from sedfiber.errors import InputError
+from sedfiber.figures.drawing import add_output_arguments, write_drawing
 from sedfiber.figures.falls import Fall, read_falls
-from sedfiber.figures.style import save_figure
 from sedfiber.figures.table_input import in_set, select_columns
 from sedfiber.learning.measures import forecast_error
 from sedfiber.tables import read_csv
@@ -42,16 +41,13 @@ def add_pair_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--forecasts", nargs="+", type=Path, required=True, help="one model's forecasts of them")
     parser.add_argument("--errors", type=Path, required=True, help="CSV table (forecast_errors.csv)")
     parser.add_argument("--latent-dim", type=int, required=True, help="that model's latent dimension in the table")
-    parser.add_argument("--svg", type=Path, required=True, help="SVG file to write")
-    parser.add_argument("--png", type=Path, required=True, help="PNG file to write")
+    add_output_arguments(parser)
 
 
 def write_pair_figure(args: argparse.Namespace, draw: Callable[[list[Pair]], Figure]) -> None:
     """Refuse unusable outputs, read, draw, write both files."""
-    for path in (args.svg, args.png):
-        require_writable(path)
     pairs = pair_up(_read_all(args.truth), _read_all(args.forecasts), read_csv(args.errors), args.latent_dim)
-    save_figure(lambda: draw(pairs), args.svg, args.png)
+    write_drawing(args, lambda: draw(pairs))
 
 
 def pair_up(truths: Sequence[Fall], forecasts: Sequence[Fall], errors: pd.DataFrame, latent_dim: int) -> list[Pair]:

@@ -8,9 +8,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from sedfiber.atomic_file import require_writable
 from sedfiber.errors import InputError
-from sedfiber.figures.style import save_figure
+from sedfiber.figures.drawing import add_output_arguments, write_drawing
 from sedfiber.tables import read_csv
 
 TEST_SETS = ("A", "B")
@@ -19,16 +18,12 @@ TEST_SETS = ("A", "B")
 def add_figure_arguments(parser: argparse.ArgumentParser, table: str) -> None:
     """The table to draw and the two files to write."""
     parser.add_argument("table", type=Path, help=f"CSV table to draw ({table})")
-    parser.add_argument("--svg", type=Path, required=True, help="SVG file to write")
-    parser.add_argument("--png", type=Path, required=True, help="PNG file to write")
+    add_output_arguments(parser)
 
 
 def write_figure(args: argparse.Namespace, draw: Callable[[pd.DataFrame], Figure]) -> None:
     """Refuse unusable outputs, read the table, draw it, write both files."""
-    for path in (args.svg, args.png):
-        require_writable(path)
-    table = read_csv(args.table)
-    save_figure(lambda: draw(table), args.svg, args.png)
+    write_drawing(args, lambda: draw(read_csv(args.table)))
 
 
 def select_columns(table: pd.DataFrame, text: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:
