@@ -38,6 +38,7 @@ STUDY_RESULTS = [
     rules.forecasts.input,
     rules.errors.input,
     rules.figures.input,
+    rules.tabulate_regimes.output,
     rules.tabulate_key_numbers.output,
 ]
 
