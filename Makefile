@@ -1,6 +1,6 @@
 # make reproduce   the environment, then the whole study
 # make test        the environment, then all tests
-# make publish     a full run of committed code, copied to results/published
+# make publish     a full run of committed code, copied to results/published, and its model into the package
 
 PYTHON ?= python3
 BIN := .venv/bin
@@ -16,6 +16,7 @@ test: environment
 
 publish: reproduce
 	$(BIN)/sedfiber publish_results
+	$(BIN)/sedfiber ship_model
 
 lint: environment
 	$(BIN)/ruff check .

@@ -31,7 +31,7 @@ class Checkout:
         text = run.stdout + run.stderr
         jobs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)}
         targets = {"all", "total", "simulations", "dataset", "autoencoders", "node", "forecasts", "errors", "figures"}
-        targets |= {"scenes", "effects", "third_dimension", "states", "hard_cases", "cost", "films"}
+        targets |= {"scenes", "effects", "third_dimension", "states", "hard_cases", "cost", "films", "explorer"}
         return {name: count for name, count in jobs.items() if name not in targets}
 
     def edit(self, path: str, old: str, new: str) -> None:

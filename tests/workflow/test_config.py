@@ -137,6 +137,7 @@ OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml", "PIL": "p
         ("figures", ["plot_data_sets", "plot_model_diagram", "plot_reconstruction", "plot_forecast_errors"]),
         ("figures", ["plot_forecast_shapes", "plot_forecast_paths", "plot_contact_sheet", "plot_lags"]),
         ("figures", ["plot_baselines", "plot_error_distribution", "film_forecast", "film_scene"]),
+        ("figures", ["make_explorer"]),
     ],
 )
 def test_conda_environments_hold_what_their_commands_import(environment, commands):

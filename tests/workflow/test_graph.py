@@ -40,6 +40,7 @@ def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
         ("errors", ERRORS),
         ("figures", FIGURES),
         ("films", {"film_forecast", "film_scene"}),
+        ("explorer", {"make_explorer"}),
         ("check_simulations", {"check_simulation", "tabulate_checks"}),
         ("scenes", {"simulate_scene", "plot_scene", "tabulate_scene_audit"}),
         ("third_dimension", {"compare_third_dimension", "plot_third_dimension"}),

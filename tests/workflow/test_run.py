@@ -16,6 +16,8 @@ from PIL import Image
 from workflow_helpers import REPOSITORY, results_of
 
 import sedfiber
+from sedfiber.differences import largest_distance
+from sedfiber.shipped_model import SETS, copy_model
 
 pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
 
@@ -129,7 +131,20 @@ def test_the_trained_model_forecasts_from_command_and_python(finished, tmp_path)
     written = sedfiber.read_trajectory(tmp_path / "f.parquet")
     positions = sedfiber.load_model(folder).forecast(100, 0.7, written.t)
     assert positions.shape == (21, 7, 3)
-    assert abs(positions - written.positions).max() < 1e-12
+    assert largest_distance(positions, written.positions, 14.0) < 1e-6  # compiled, and in plain NumPy
+
+
+def test_the_trained_model_can_be_shipped(finished, tmp_path):
+    """With a card that holds the tables' errors, and forecasts like the model that it was copied from."""
+    results = finished.folder / "results"
+    card = copy_model(results, tmp_path / "shipped", json.loads((results / "manifest.json").read_text()))
+    errors = pd.read_csv(results / "tables/forecast_errors.csv")
+    for name in SETS:
+        chosen = errors[(errors["test_set"] == name) & (errors["latent_dim"] == card["autoencoder"]["latent_dim"])]
+        assert card["error"]["sets"][name]["E_worst"] == chosen["E_max"].max()
+        assert card["error"]["sets"][name]["trajectories"] == len(chosen)
+    ours, theirs = (sedfiber.load_model(folder) for folder in (tmp_path / "shipped", results / "models/forecast"))
+    assert abs(ours.forecast(100, 0.7, [0.0, 5.0]) - theirs.forecast(100, 0.7, [0.0, 5.0])).max() == 0.0
 
 
 def test_forecasts_outside_the_training_range_warn_in_one_line(finished, tmp_path):

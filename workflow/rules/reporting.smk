@@ -72,3 +72,11 @@ PAIRED = [
     "--truth {truth} --forecasts {forecasts} --errors {table}",
     f"--latent-dim {NODES[FORECAST_MODEL]['latent_dim']}",
 ]
+
+
+def page_parts():
+    """Template, style and scripts of the explorer."""
+    folder = BASE / "workflow/sedfiber/explorer"
+    return [
+        here(path) for path in sorted(folder.iterdir()) if path.suffix in (".html", ".css", ".js")
+    ]

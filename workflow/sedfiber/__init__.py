@@ -5,12 +5,6 @@ Public names are imported on first use, so that a simulation never pays for torc
 """
 
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
-
-try:
-    __version__ = version("sedfiber")
-except PackageNotFoundError:  # run from a checkout that is not installed
-    __version__ = "0+checkout"
 
 _EXPORTS = {
     "InputError": "sedfiber.errors",
@@ -32,9 +26,20 @@ __all__ = [*_EXPORTS, "__version__"]
 
 
 def __getattr__(name: str):
+    if name == "__version__":
+        return _version()
     if name not in _EXPORTS:
         raise AttributeError(f"module 'sedfiber' has no attribute {name!r}")
     return getattr(import_module(_EXPORTS[name]), name)
+
+
+def _version() -> str:
+    from importlib.metadata import PackageNotFoundError, version  # takes as long as half of NumPy
+
+    try:
+        return version("sedfiber")
+    except PackageNotFoundError:  # run from a checkout that is not installed
+        return "0+checkout"
 
 
 def __dir__() -> list[str]:

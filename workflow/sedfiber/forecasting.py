@@ -1,4 +1,6 @@
-"""A trained model as a user meets it: ℬ, θ₀ and times in, bead positions out; compiled, without torch.
+"""A trained model as a user meets it: ℬ, θ₀ and times in, bead positions out; without torch.
+
+Many forecasts are made in compiled code (`load_model`), a few in plain NumPy (`load_plain_model`).
 
 The terminal shape and velocity come from the series that lies beside the model, and from the
 steady solver outside the series' range, or where there is none. A fiber is the same with
@@ -7,17 +9,19 @@ its beads counted from the other end, so that a start beyond ±π/2 is forecast 
 
 import math
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from sedfiber._typing import Array, History, Positions, Times
-from sedfiber.compiled.model import RTOL, CompiledModel, load_compiled
+from sedfiber.compiled.tolerances import RTOL
+from sedfiber.compiled.trained import TrainedModel
 from sedfiber.errors import InputError
 from sedfiber.learning.start import Start
+from sedfiber.model_folder import SHIPPED
 from sedfiber.physics.settling import SETTLED, distance_to_terminal, settling_time
-from sedfiber.physics.steady import steady_state
 from sedfiber.scene import Scene
 from sedfiber.terminal_curve import FILE as CURVE
 from sedfiber.terminal_curve import TerminalCurve, read_terminal_curve
@@ -38,7 +42,7 @@ FAR = 5e-3
 class Forecaster:
     """A loaded model; ``model.scales`` holds the range it was trained on."""
 
-    def __init__(self, model: CompiledModel, curve: TerminalCurve | None = None, hydrodynamics: str = "RPY"):
+    def __init__(self, model: TrainedModel, curve: TerminalCurve | None = None, hydrodynamics: str = "RPY"):
         self.model, self.curve = model, curve
         self.hydrodynamics = hydrodynamics if curve is None else curve.hydrodynamics
 
@@ -90,7 +94,8 @@ class Forecaster:
 
         Start s has ℬ ``B[s]``, inclination ``theta0[s]`` and ``counts[s]`` samples, ``interval`` apart from
         time 0 on. Writing to an ``out`` that was written to before saves the most time: fresh memory takes
-        longer than the forecasts. A start beyond ±π/2 has its beads counted from the left. Raises as `forecast`.
+        longer than the forecasts. A start beyond ±π/2 has its beads counted from the left. For what `load_model`
+        gives: a plain model has no sweep. Raises as `forecast`.
         """
         starts = [self.start(*one) for one in zip(B, theta0, strict=True)]
         return self.model.sweep(starts, interval, counts, out, dtype)
@@ -135,8 +140,7 @@ class Forecaster:
         """Terminal shape (N, 3) and velocity (3,)."""
         if self.curve is not None and self.curve.covers(B):
             return self.curve(B)
-        steady = steady_state(B, self.model.scales.n_beads, self.hydrodynamics)
-        return steady.positions, steady.velocity
+        return _solved(B, self.model.scales.n_beads, self.hydrodynamics)
 
     def _positions(self, scene: Scene, start: Start, t: Times) -> History:
         """The forecast with its beads in the scene's order."""
@@ -170,17 +174,39 @@ class Forecaster:
         }
 
 
-def load_model(folder: str | Path, tolerance: float = RTOL) -> Forecaster:
-    """Load a forecast model, such as ``results/models/forecast``; raises InputError for anything else.
+def load_model(folder: str | Path | None = None, tolerance: float = RTOL) -> Forecaster:
+    """Load a forecast model, by default the one shipped with the package; raises InputError for anything else.
 
     ``tolerance`` of a step, relative and in L/2, bounds how far a forecast is from an exact solution of
     the model; 1e-4 takes 0.6 of the default's time and adds an error of 1e-5 L in the median.
     """
+    from sedfiber.compiled.model import load_compiled  # numba: for those who forecast many
+
     number_within("tolerance", tolerance, 1e-12, 0.1, "a number from 1e-12 to 0.1")
-    curve = Path(folder) / CURVE
-    return Forecaster(
-        load_compiled(folder, tolerance, tolerance), read_terminal_curve(curve) if curve.exists() else None
-    )
+    folder = SHIPPED if folder is None else folder
+    return Forecaster(load_compiled(folder, tolerance, tolerance), _curve_beside(folder))
+
+
+def load_plain_model(folder: str | Path | None = None) -> Forecaster:
+    """The same model for a few forecasts, without numba: 15 ms for one, of which `sweep` is not there."""
+    from sedfiber.plain.model import load_plain
+
+    folder = SHIPPED if folder is None else folder
+    return Forecaster(load_plain(folder), _curve_beside(folder))
+
+
+def _curve_beside(folder: str | Path) -> TerminalCurve | None:
+    path = Path(folder) / CURVE
+    return read_terminal_curve(path) if path.exists() else None
+
+
+@lru_cache(maxsize=4096)  # a few MB
+def _solved(B: float, n_beads: int, hydrodynamics: str) -> tuple[Positions, Array]:
+    """Terminal shape and velocity by the steady solver; forecasts ask for them more than once."""
+    from sedfiber.physics.steady import steady_state  # compiled: only for those who leave the curve's range
+
+    steady = steady_state(B, n_beads, hydrodynamics)
+    return steady.positions, steady.velocity
 
 
 def _order(start: Array) -> int:

@@ -13,6 +13,7 @@ from sedfiber.errors import InputError
 
 WEIGHTS = "model.safetensors"
 CARD = "card.json"
+SHIPPED = Path(__file__).parent / "shipped"  # the forecast model that comes with the package
 
 
 def read_model_folder(folder: str | Path, kind: str) -> tuple[dict[str, Any], bytes]:

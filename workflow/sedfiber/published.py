@@ -7,13 +7,14 @@ of, so that what is shown is what one run made.
 import json
 import shutil
 import subprocess
+from collections.abc import Iterable
 from pathlib import Path
 
 from sedfiber.commands.write_manifest import sha256
 from sedfiber.errors import InputError
 
-# What a result depends on; documents and tests may change after the run.
-CODE = ("Snakefile", "config.yaml", "workflow", "envs", "profiles")
+# What a result depends on; documents and tests may change after the run, and the shipped model is itself a result.
+CODE = ("Snakefile", "config.yaml", "workflow", "envs", "profiles", ":(exclude)workflow/sedfiber/shipped")
 MANIFEST = "manifest.json"
 _SHOWN = {"tables": ".csv", "figures": ".svg"}
 
@@ -24,12 +25,10 @@ def publish(results: Path, into: Path, repository: Path) -> list[Path]:
     Raises InputError, and writes nothing, when the run is not from the committed code or a file is
     not the one that the manifest has the checksum of.
     """
-    manifest = _read(results / MANIFEST)
-    _require_committed(manifest["commit"], repository)
-    chosen = {path: digest for path, digest in manifest["sha256"].items() if _is_shown(Path(path))}
-    for path, digest in chosen.items():
-        if sha256(results.parent / path) != digest:
-            raise InputError(f"publish: {path} is not the file of the manifest; run snakemake again")
+    manifest = read_manifest(results)
+    require_committed(manifest["commit"], repository)
+    chosen = [path for path in manifest["sha256"] if _is_shown(Path(path))]
+    require_recorded(manifest, chosen, results)
     return _replace(into, [results.parent / path for path in chosen] + [results / MANIFEST], results)
 
 
@@ -38,15 +37,23 @@ def _is_shown(path: Path) -> bool:
     return len(path.parts) == 3 and _SHOWN.get(path.parts[1]) == path.suffix
 
 
-def _read(path: Path) -> dict:
+def read_manifest(results: Path) -> dict:
+    """The manifest of a full run; raises InputError where there is none."""
     try:
-        return json.loads(path.read_text(encoding="utf-8"))
+        return json.loads((results / MANIFEST).read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         reason = str(error).splitlines()[0]
         raise InputError(f"publish: no manifest of a full run ({reason}); run snakemake -j2 first") from None
 
 
-def _require_committed(commit: str, repository: Path) -> None:
+def require_recorded(manifest: dict, paths: Iterable[str], results: Path) -> None:
+    """Every file, named as in the manifest, is the one that the manifest has the checksum of."""
+    for path in paths:
+        if sha256(results.parent / path) != manifest["sha256"].get(path):
+            raise InputError(f"publish: {path} is not the file of the manifest; run snakemake again")
+
+
+def require_committed(commit: str, repository: Path) -> None:
     """The run's commit has the code that HEAD has, and no file of the code differs from it now."""
     if commit == "unknown" or commit.endswith("-dirty"):
         raise InputError(f"publish: the run is of {commit}, not of committed code; commit, and run snakemake -j2 again")

@@ -9,14 +9,17 @@ the forecast does, the series a few microseconds.
 from dataclasses import dataclass
 from math import log
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 
 from sedfiber._typing import Array, Positions
 from sedfiber.errors import InputError, NumericalError
-from sedfiber.physics.steady import SteadyState, steady_state
-from sedfiber.trajectory_file import read_table, write_table
+from sedfiber.trajectory_file import column_values, read_table, write_table
+
+if TYPE_CHECKING:
+    from sedfiber.physics.steady import SteadyState
 
 FILE = "terminal_curve.parquet"  # beside a forecast model
 ACCURACY = 1e-9  # a and U_s: the last coefficients are smaller
@@ -44,6 +47,8 @@ class TerminalCurve:
         A range of one ℬ has one term.  Raises InputError for values that are not allowed, NumericalError
         where a ℬ of the range has no terminal shape or the series does not converge.
         """
+        from sedfiber.physics.steady import steady_state  # compiled: a forecast only reads the series
+
         if not 0.0 < B_min <= B_max:
             raise InputError(f"B_max: {B_max:g} is not allowed; give a number from B_min={B_min:g} up")
         if B_min == B_max:
@@ -102,9 +107,9 @@ def read_terminal_curve(path: Path) -> TerminalCurve:
     table, facts = read_table(path)
     if facts.get("kind") != "terminal curve":
         raise InputError(f"input: {str(path)!r} holds no terminal curve")
-    columns = np.column_stack([column.to_numpy() for column in table.columns])
+    columns = np.column_stack([column_values(table, name) for name in table.column_names])
     return TerminalCurve(facts["B_min"], facts["B_max"], facts["hydrodynamics"], np.ascontiguousarray(columns))
 
 
-def _row(state: SteadyState) -> Array:
+def _row(state: "SteadyState") -> Array:
     return np.append(state.positions[:, :2].ravel(), state.velocity[:2])

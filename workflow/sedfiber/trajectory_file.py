@@ -47,7 +47,8 @@ def read_table(path: Path) -> tuple[pa.Table, dict]:
     if path.is_dir():
         raise InputError(f"input: {str(path)!r} is a folder; give the path of a file")
     try:
-        table = pq.read_table(path, page_checksum_verification=True)
+        with pq.ParquetFile(path, page_checksum_verification=True) as file:  # pq.read_table would import pandas
+            table = file.read()
         facts = json.loads((table.schema.metadata or {})[METADATA_KEY])
     except FileNotFoundError:
         raise InputError(f"input: {str(path)!r} does not exist") from None
@@ -64,10 +65,15 @@ def coordinate_columns(positions: Positions) -> dict[str, np.ndarray]:
     return dict(zip(coordinate_names(positions.shape[1]), flat, strict=True))
 
 
+def column_values(table: pa.Table, name: str) -> np.ndarray:
+    """The numbers of a column without nulls (rows,), without Arrow's ``to_numpy``, which would import pandas."""
+    return np.concatenate([np.from_dlpack(chunk) for chunk in table.column(name).chunks])
+
+
 def positions_of(table: pa.Table) -> Positions:
     """Positions (T, N, 3) of a table with coordinate columns."""
     names = coordinate_names(bead_count(table.column_names))
-    flat = np.array([table.column(name).to_numpy() for name in names])
+    flat = np.array([column_values(table, name) for name in names])
     return np.ascontiguousarray(flat.T).reshape(table.num_rows, -1, 3)
 
 
@@ -82,7 +88,7 @@ def read_trajectory(path: str | Path) -> Trajectory:
     table, metadata = read_table(Path(path))
     if not _is_trajectory(table):
         raise InputError(f"input: {str(path)!r} is not a trajectory (numbers in t, x0, y0, z0, … expected)")
-    return Trajectory(table.column("t").to_numpy(), positions_of(table), metadata)
+    return Trajectory(column_values(table, "t"), positions_of(table), metadata)
 
 
 def _is_trajectory(table: pa.Table) -> bool:

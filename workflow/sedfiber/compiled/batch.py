@@ -13,11 +13,14 @@ from numba import literal_unroll, njit
 
 from sedfiber._typing import Array, Times
 from sedfiber.compiled.bead_path import PIECE, Scratch, Shapes, write
-from sedfiber.compiled.begin import Origin, dynamics_of, first_state, shapes_of
+from sedfiber.compiled.begin import dynamics_of, first_state, shapes_of
 from sedfiber.compiled.copying import copy
 from sedfiber.compiled.latent_path import DONE, Progress, clip, depart, judge
-from sedfiber.compiled.perceptron import Network, many
-from sedfiber.compiled.runge_kutta import DEGREE, STAGES, stage
+from sedfiber.compiled.network import Network
+from sedfiber.compiled.origin import Origin
+from sedfiber.compiled.perceptron import many
+from sedfiber.compiled.runge_kutta import stage
+from sedfiber.compiled.tableau import DEGREE, STAGES
 from sedfiber.compiled.tables import Tables
 
 LANES = 48  # few enough that what they need stays in the cache

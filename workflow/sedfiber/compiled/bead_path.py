@@ -22,7 +22,8 @@ from numba import njit
 
 from sedfiber._typing import Array, Times
 from sedfiber.compiled.copying import copy_rows
-from sedfiber.compiled.perceptron import FAST, Network, many
+from sedfiber.compiled.network import Network
+from sedfiber.compiled.perceptron import FAST, many
 
 SPAN = 3
 DEGREE = 8

@@ -1,32 +1,16 @@
 """What one start makes of the tables: its latent state, and both networks at its ℬ."""
 
-from typing import NamedTuple
-
 import numpy as np
 from numba import njit
 
-from sedfiber._typing import Array, Positions
+from sedfiber._typing import Array
 from sedfiber.compiled.bead_path import Shapes
 from sedfiber.compiled.copying import copy
 from sedfiber.compiled.latent_path import Dynamics
-from sedfiber.compiled.perceptron import Network, one
+from sedfiber.compiled.network import Network
+from sedfiber.compiled.origin import Origin
+from sedfiber.compiled.perceptron import one
 from sedfiber.compiled.tables import Tables
-
-
-class Origin(NamedTuple):
-    """A start as the kernels take it; see `learning.start`.
-
-    ``encoder`` (d, 3N) takes shapes in ``a`` to h, ``b`` is the scaled ln ℬ that the networks are
-    asked at, and ``anchor`` (N, 3) is the terminal shape there.
-    """
-
-    encoder: Array
-    b: float
-    anchor: Positions
-    initial: Positions
-    terminal: Positions
-    velocity: Array
-    pace: float
 
 
 @njit(cache=True)

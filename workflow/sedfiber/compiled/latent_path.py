@@ -13,10 +13,12 @@ from numba import njit
 
 from sedfiber._typing import Array
 from sedfiber.compiled.copying import copy
-from sedfiber.compiled.perceptron import FAST, Network, one
-from sedfiber.compiled.runge_kutta import STAGES, continue_step, error_ratio, first_step, next_step, stage
+from sedfiber.compiled.network import Network
+from sedfiber.compiled.perceptron import FAST, one
+from sedfiber.compiled.runge_kutta import continue_step, error_ratio, first_step, next_step, stage
+from sedfiber.compiled.tableau import STAGES
+from sedfiber.compiled.tolerances import LEAST_ASYMMETRY
 
-LEAST_ASYMMETRY = 1e-6  # of L/2; less is none
 MORE, DONE, NOT_FINITE, STUCK = range(4)  # what a piece ends with; the last two are failures
 
 

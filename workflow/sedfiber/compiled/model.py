@@ -19,39 +19,27 @@ import numpy as np
 from sedfiber._typing import Array, History, Times
 from sedfiber.compiled import batch, single
 from sedfiber.compiled.bead_path import scratch
-from sedfiber.compiled.begin import Origin
 from sedfiber.compiled.latent_path import DONE, NOT_FINITE
-from sedfiber.compiled.model_file import read_model
-from sedfiber.compiled.perceptron import cast
-from sedfiber.compiled.tables import Encoder, Tensors, tables
-from sedfiber.errors import InputError, NumericalError
-from sedfiber.learning.scaling import Scales
+from sedfiber.compiled.network import cast
+from sedfiber.compiled.tables import Tensors, tables
+from sedfiber.compiled.tolerances import ATOL, RTOL
+from sedfiber.compiled.trained import TrainedModel, ascending, left_the_numbers, load, stuck
+from sedfiber.errors import InputError
 from sedfiber.learning.start import Start
-from sedfiber.model_folder import does_not_fit
-
-# Measured on the study's model with d = 4, against dopri5 at 1e-9: at 5e-7 all 143 test forecasts are
-# within 4.8e-7 L at every sample; starts unlike any of the training, arches and zigzags, are off by twice that.
-RTOL = ATOL = 3e-7
-VARIANTS = ("none", "encoder", "decoder", "double")
 
 
-class CompiledModel:
+class CompiledModel(TrainedModel):
     """Encoder, decoder and neural ODE; ``rtol`` and ``atol`` (units of h and of L/2) bound the error of a step.
 
     ``evaluations`` are those of the rates in the last call, ``decoded`` the shapes decoded.
     """
 
     def __init__(self, tensors: Tensors, card: dict[str, Any], rtol: float = RTOL, atol: float = ATOL) -> None:
-        facts = card["autoencoder"]
-        self.scales = Scales(**facts["scales"])
-        self.variant, self.latent_dim = facts["variant"], facts["latent_dim"]
-        self.rtol, self.atol = rtol, atol
+        super().__init__(tensors, card, rtol, atol)
         self.evaluations = self.decoded = 0
-        self._encoder = Encoder(tensors, self.scales.half_length)
-        self._tables = {dim: tables(tensors, self.scales.half_length, dim) for dim in (2, 3)}
+        self._tables = {2: tables(tensors, self.scales.half_length, 2), 3: self._volume}
         self._memory = {dim: self._scratch(dim, np.float64) for dim in (2, 3)}
         self._works: dict[Any, tuple[batch.Work, batch.Lanes]] = {}
-        self._require_sizes()
 
     def forecast_many(self, starts: Sequence[Start], t: Times) -> Array:
         """Positions (S, T, N, 3) at times ``t`` (T,), ascending from ``t[0]`` ≥ 0, of S starts, one by one.
@@ -104,19 +92,10 @@ class CompiledModel:
         self.evaluations, self.decoded = used
         return out, offsets
 
-    def start_error(self, start: Start) -> float:
-        """How far the model's first shape, D(E(X̌(0))), is from the start: rms bead distance over L."""
-        first = self.forecast(start, np.zeros(1))[0]
-        shape = self.scales.shape(self.scales.residual(start.initial, start.terminal), start.terminal)
-        offset = first - first[self.scales.n_beads // 2] - shape
-        return float(np.sqrt((offset**2).sum(axis=1).mean()) / (2.0 * self.scales.half_length))
-
     def _forecast(self, start: Start, t: Times, dim: int, out: Array) -> tuple[int, int]:
         """Fill ``out`` (T, N, dim); evaluations and rows decoded."""
         self._require_shapes(start)
-        t = np.ascontiguousarray(t, dtype=np.float64)
-        if len(t) == 0 or t[0] < 0 or not (t[1:] > t[:-1]).all():
-            raise InputError("forecast times must ascend from zero or later")
+        t = ascending(t)
         self._require_memory(out, (len(t), self.scales.n_beads, dim), np.float64)
         origin, rows = self._origin(start), out.reshape(len(t), -1)
         status, when, *used = single.forecast(
@@ -124,12 +103,6 @@ class CompiledModel:
         )
         _require_done(status, when, start)
         return used[0], used[1]
-
-    def _origin(self, start: Start) -> Origin:
-        B, anchor = start.nearest or (start.B, start.terminal)
-        b = float(self.scales.log_B(B))
-        places = (anchor, start.initial, start.terminal, start.terminal_velocity)
-        return Origin(self._encoder.at(b), b, *(np.ascontiguousarray(x, np.float64) for x in places), start.pace)
 
     def _columns(self, starts: Sequence[Start], t: Times, counts: Array, offsets: Array) -> batch.Sweep:
         """The starts as arrays; one encoder for all where it does not see ℬ."""
@@ -157,11 +130,6 @@ class CompiledModel:
         own = self._tables[dim]
         return scratch(cast(own.decoder, dtype), *own.modes.shape, len(own.rates.signs_out))
 
-    def _require_shapes(self, start: Start) -> None:
-        n_beads = self.scales.n_beads
-        if start.initial.shape != (n_beads, 3) or start.terminal.shape != (n_beads, 3):
-            raise InputError(f"the model was trained on {n_beads} beads, not on {len(start.initial)}")
-
     def _require_counts(self, starts: Sequence[Start], interval: float, counts: Sequence[int]) -> None:
         for start in starts:
             self._require_shapes(start)
@@ -174,30 +142,13 @@ class CompiledModel:
         if out.shape != shape or out.dtype != dtype or not out.flags.c_contiguous:
             raise InputError(f"out: give a contiguous array of shape {shape} and type {np.dtype(dtype)}")
 
-    def _require_sizes(self) -> None:
-        """ValueError for tensors that the card does not describe, before a kernel reads beyond their ends."""
-        own, d, n = self._tables[3], self.latent_dim, self.scales.n_beads
-        r = len(own.decoder.signs_out)
-        found = (own.rates.last.shape[0], own.pick.shape, own.modes.shape, self._encoder.at(0.0).shape)
-        if self.variant not in VARIANTS or found != (d + 2, (d, r), (r, 3 * n), (d, 3 * n)):
-            raise ValueError(
-                f"the card's variant {self.variant!r} and {d} latent variables are not those of the weights"
-            )
-
 
 def load_compiled(folder: str | Path, rtol: float = RTOL, atol: float = ATOL) -> CompiledModel:
     """The model of a folder such as ``results/models/forecast``; raises InputError for anything else."""
-    tensors, card = read_model(folder)
-    try:
-        return CompiledModel(tensors, card, rtol, atol)
-    except (KeyError, TypeError, ValueError, IndexError) as error:
-        raise does_not_fit(folder, error) from error
+    return load(CompiledModel, folder, rtol, atol)
 
 
 def _require_done(status: int, when: float, start: Start) -> None:
     """Raise NumericalError for an integration that failed."""
-    if status == DONE:
-        return
-    if status == NOT_FINITE:
-        raise NumericalError(f"the forecast at B={start.B:g} left the numbers; is B far outside the training range?")
-    raise NumericalError(f"the forecast at B={start.B:g} is stuck at t={when:g}; loosen rtol and atol")
+    if status != DONE:
+        raise left_the_numbers(start) if status == NOT_FINITE else stuck(start, when)

@@ -12,8 +12,6 @@ the ½ are folded into the weights of the first and last layer.
 matrices a layer; in float32 it takes half the time.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 from llvmlite import ir
 from numba import njit, types
@@ -21,34 +19,13 @@ from numba.extending import intrinsic, overload
 from numpy.polynomial import Chebyshev, Polynomial
 
 from sedfiber._typing import Array
+from sedfiber.compiled.network import Network
 from sedfiber.compiled.vector_layer import layer
 
 # What sums may do to run four at a time; the bits stay the same from run to run.
 FAST = {"reassoc", "contract", "nsz", "arcp"}
 # Without "reassoc", which would cancel the rounding by addition.
 _EXACT = {"contract", "nsz", "arcp"}
-
-
-class Network(NamedTuple):
-    """A network's weights: x enters by ``first`` (n_in, w_1), the result leaves by ``last`` (n_out, w_K).
-
-    ``inner`` holds the layers between, one after the other: weights (w_k, w_k+1) row by row, then
-    biases; ``widths`` (K,) are those of the hidden layers, filled up to multiples of 16 with units
-    that have no weights, see `vector_layer`. Signs under the mirror are ±1.
-    """
-
-    first: Array
-    inner: Array
-    widths: Array
-    last: Array
-    signs_in: Array
-    signs_out: Array
-
-
-def cast(network: Network, dtype: type) -> Network:
-    """The same network with weights of another precision; the widths stay integers."""
-    parts = [part if part.dtype == np.int64 else np.ascontiguousarray(part, dtype) for part in network]
-    return Network(*parts)
 
 
 @intrinsic

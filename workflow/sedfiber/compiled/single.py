@@ -5,9 +5,10 @@ from numba import njit
 
 from sedfiber._typing import Array, Times
 from sedfiber.compiled.bead_path import PIECE, Scratch, write
-from sedfiber.compiled.begin import Origin, dynamics_of, first_state, shapes_of
+from sedfiber.compiled.begin import dynamics_of, first_state, shapes_of
 from sedfiber.compiled.latent_path import DONE, MORE, advance, depart
-from sedfiber.compiled.runge_kutta import DEGREE
+from sedfiber.compiled.origin import Origin
+from sedfiber.compiled.tableau import DEGREE
 from sedfiber.compiled.tables import Tables
 
 

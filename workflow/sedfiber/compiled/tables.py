@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from sedfiber._typing import Array
-from sedfiber.compiled.perceptron import Network
-from sedfiber.compiled.vector_layer import BLOCK
+from sedfiber.compiled.network import BLOCK, Network
 
 Tensors = dict[str, np.ndarray]
 

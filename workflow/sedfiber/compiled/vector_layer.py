@@ -12,8 +12,8 @@ from numba import njit, types
 from numba.extending import intrinsic
 
 from sedfiber._typing import Array
+from sedfiber.compiled.network import BLOCK
 
-BLOCK = 16  # outputs at a time; the number of outputs must be a multiple
 _LANES = 4
 
 _INDEX, _SMALL = ir.IntType(64), ir.IntType(32)

@@ -74,6 +74,17 @@ def save_figure(draw: Callable[[], Figure], svg: Path, png: Path) -> None:
             figure.savefig(partial, format="png", metadata={"Software": None})
 
 
+def save_picture(draw: Callable[[], Figure], path: Path) -> None:
+    """The same for one file, whose suffix says what it is: .svg or .png."""
+    kind = path.suffix.removeprefix(".")
+    without_date = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}}[kind]
+    with context(["default", RC_PARAMS]):
+        figure = draw()
+        _fix_layout(figure)
+        with replaced_when_done(path) as partial:
+            figure.savefig(partial, format=kind, metadata=without_date)
+
+
 def _fix_layout(figure: Figure) -> None:
     """Lay out once, and round: the layout's solver differs in the last bits from run to run."""
     figure.draw_without_rendering()

@@ -6,13 +6,16 @@ Lengths are in bead radii ``a``, times in ``a/U_s``, as in the files; `scaling` 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 import pyarrow.parquet as pq
 
 from sedfiber._typing import Array, History, Positions, Times
 from sedfiber.errors import InputError
+
+if TYPE_CHECKING:
+    import pandas as pd  # a forecast does without
 
 AXES = ("x", "y", "z")
 MOVED = 1e-6  # a: the least that a settling fiber's centre bead moves in a sample interval
@@ -114,14 +117,14 @@ def centre_index(n_beads: int) -> int:
     return n_beads // 2
 
 
-def _read_parquet(path: str | Path) -> pd.DataFrame:
+def _read_parquet(path: str | Path) -> "pd.DataFrame":
     try:
         return pq.read_table(path, page_checksum_verification=True).to_pandas()
     except (OSError, ValueError) as error:
         raise InputError(f"cannot read {path} as Parquet: {str(error).splitlines()[0]}") from error
 
 
-def _position_columns(table: pd.DataFrame, path: str | Path) -> list[str]:
+def _position_columns(table: "pd.DataFrame", path: str | Path) -> list[str]:
     n_beads = sum(name.startswith("x") and name[1:].isdigit() for name in table.columns)
     wanted = [f"{axis}{bead}" for bead in range(n_beads) for axis in AXES]
     required = [*wanted, "B", "theta0", "angle_index", "split", "t"]
@@ -131,7 +134,7 @@ def _position_columns(table: pd.DataFrame, path: str | Path) -> list[str]:
     return wanted
 
 
-def _trajectory(group: pd.DataFrame, columns: list[str], terminal: dict) -> Trajectory:
+def _trajectory(group: "pd.DataFrame", columns: list[str], terminal: dict) -> Trajectory:
     first = group.iloc[0]
     if first["B"] not in terminal:
         raise InputError(f"there is no terminal shape for B = {first['B']:g}")

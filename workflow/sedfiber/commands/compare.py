@@ -1,0 +1,51 @@
+"""``sedfiber compare``: E(t) of one trajectory against another."""
+
+import argparse
+import math
+from pathlib import Path
+
+import pandas as pd
+
+from sedfiber.atomic_file import require_writable
+from sedfiber.comparison import Comparison, compare, summary
+from sedfiber.tables import write_csv
+from sedfiber.trajectory import Trajectory
+from sedfiber.trajectory_file import read_trajectory
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Both trajectories, and where E(t) goes."""
+    parser.add_argument("truth", type=Path, help="trajectory that is taken for true")
+    parser.add_argument("other", type=Path, help="trajectory that is compared with it, such as a forecast")
+    parser.add_argument("-o", "--output", type=Path, help="CSV file to write: t, E, E_shape, E_pos (none)")
+
+
+def run(args: argparse.Namespace) -> None:
+    """Compare, print a few lines, write E(t) where it is asked for."""
+    if args.output is not None:
+        require_writable(args.output)
+    truth, other = read_trajectory(args.truth), read_trajectory(args.other)
+    compared = compare(truth, other)
+    for line in _lines(truth, other, compared):
+        print(line)
+    if args.output is not None:
+        error = compared.error
+        columns = {"t": compared.t, "E": error.total, "E_shape": error.shape, "E_pos": error.position}
+        write_csv(pd.DataFrame(columns), args.output)
+
+
+def _lines(truth: Trajectory, other: Trajectory, compared: Comparison) -> list[str]:
+    span = f"{len(compared.t)} samples from t = {compared.t[0]:g} to {compared.t[-1]:g}"
+    how = "; the second resampled at the times of the first" if compared.resampled else ""
+    lines = [f"{span}{how}"]
+    for key in ("B", "theta0"):
+        values = [run.metadata.get("scene", {}).get(key) for run in (truth, other)]
+        if values[0] != values[1]:
+            lines.append(f"the two are not of one {key}: {values[0]} and {values[1]}")
+    for name, facts in summary(compared).items():
+        numbers = f"largest {facts['largest']:.3e} at t = {facts['at t']:g}, mean {facts['mean']:.3e}"
+        lines.append(f"{name:8}{numbers}, last {facts['last']:.3e}")
+    if not math.isnan(compared.lag):
+        word = "late" if compared.lag > 0 else "early"
+        lines.append(f"at the largest E_shape the second is {word} by {abs(compared.lag):.3g} a/U_s")
+    return lines
