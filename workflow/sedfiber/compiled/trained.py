@@ -1,5 +1,6 @@
 """What the compiled forecasts and those in plain NumPy have in common: neither torch nor numba is imported here."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -19,7 +20,7 @@ from sedfiber.model_folder import does_not_fit
 VARIANTS = ("none", "encoder", "decoder", "double")
 
 
-class TrainedModel:
+class TrainedModel(ABC):
     """Encoder, decoder and neural ODE; ``rtol`` and ``atol`` (units of h and of L/2) bound the error of a step.
 
     Who inherits says how one start is forecast.
@@ -34,13 +35,13 @@ class TrainedModel:
         self._volume = tables(tensors, self.scales.half_length, 3)
         self._require_sizes(self._volume)
 
+    @abstractmethod
     def forecast(self, start: Start, t: Times) -> History:
         """Positions (T, N, 3) of one start at times ``t`` (T,), ascending from ``t[0]`` ≥ 0.
 
         Raises InputError for shapes or times that do not fit the model, NumericalError when
         the integration fails.
         """
-        raise NotImplementedError
 
     def forecast_many(self, starts: Sequence[Start], t: Times) -> Array:
         """Positions (S, T, N, 3) of S starts, one by one; raises as `forecast`."""

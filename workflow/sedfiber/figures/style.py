@@ -38,6 +38,8 @@ SEQUENTIAL = ListedColormap(colormaps["viridis"](np.linspace(0.0, 0.9, 256)), "s
 B_SYMBOL = r"$\mathcal{B}$"
 SET_TITLES = {"A": f"test set A: trained {B_SYMBOL}, new θ₀", "B": f"test set B: new {B_SYMBOL}, new θ₀"}
 
+WITHOUT_DATE = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}}
+
 RC_PARAMS = {
     "font.family": "DejaVu Sans",
     "font.size": 8.0,
@@ -65,24 +67,21 @@ RC_PARAMS = {
 
 def save_figure(draw: Callable[[], Figure], svg: Path, png: Path) -> None:
     """Draw in this style alone, whatever the user's own settings, and write both files."""
-    with context(["default", RC_PARAMS]):
-        figure = draw()
-        _fix_layout(figure)
-        with replaced_when_done(svg) as partial:
-            figure.savefig(partial, format="svg", metadata={"Date": None, "Creator": None})
-        with replaced_when_done(png) as partial:
-            figure.savefig(partial, format="png", metadata={"Software": None})
+    _save(draw, {"svg": svg, "png": png})
 
 
 def save_picture(draw: Callable[[], Figure], path: Path) -> None:
     """The same for one file, whose suffix says what it is: .svg or .png."""
-    kind = path.suffix.removeprefix(".")
-    without_date = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}}[kind]
+    _save(draw, {path.suffix.removeprefix("."): path})
+
+
+def _save(draw: Callable[[], Figure], files: dict[str, Path]) -> None:
     with context(["default", RC_PARAMS]):
         figure = draw()
         _fix_layout(figure)
-        with replaced_when_done(path) as partial:
-            figure.savefig(partial, format=kind, metadata=without_date)
+        for kind, path in files.items():
+            with replaced_when_done(path) as partial:
+                figure.savefig(partial, format=kind, metadata=WITHOUT_DATE[kind])
 
 
 def _fix_layout(figure: Figure) -> None:
