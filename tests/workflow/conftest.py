@@ -1,6 +1,5 @@
 """A finished tiny study, made once, and copies of it to change and rerun."""
 
-import os
 import re
 import shutil
 import subprocess
@@ -8,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from workflow_helpers import REPOSITORY
+from workflow_helpers import REPOSITORY, clean_environment
 
 TINY = Path(__file__).with_name("tiny.yaml")
 
@@ -45,11 +44,6 @@ class Checkout:
         """Add one line to a file."""
         with (self.folder / path).open("a", encoding="utf-8") as handle:
             handle.write(line + "\n")
-
-
-def clean_environment() -> dict[str, str]:
-    """The environment without what pytest or a calling Snakemake put there."""
-    return {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "SNAKEMAKE_PROFILE")}
 
 
 def check_out(folder: Path, config: Path) -> Checkout:

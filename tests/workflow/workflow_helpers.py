@@ -1,12 +1,18 @@
 """What several workflow tests look at."""
 
 import hashlib
+import os
 from pathlib import Path
 
 REPOSITORY = Path(__file__).parents[2]
 
 # times of jobs, the checksum of their table, and the pages of both
 NOT_REPEATABLE = {"timings.csv", "manifest.json", "timings.html", "manifest.html"}
+
+
+def clean_environment() -> dict[str, str]:
+    """The environment without what pytest or a calling Snakemake put there."""
+    return {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "SNAKEMAKE_PROFILE")}
 
 
 def results_of(folder: Path) -> dict[str, str]:

@@ -12,6 +12,8 @@ rule train_autoencoder:
         "results/logs/train_autoencoder/{variant}_d{dim}_s{seed}.log",
     benchmark:
         "results/benchmarks/train_autoencoder/{variant}_d{dim}_s{seed}.tsv"
+    group:
+        "autoencoders"
     conda:
         "../../envs/learning.yaml"
     threads: 1

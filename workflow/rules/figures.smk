@@ -12,6 +12,8 @@ rule plot_problem:
         "results/logs/plot_problem.log",
     benchmark:
         "results/benchmarks/plot_problem.tsv"
+    group:
+        "figures"
     conda:
         "../../envs/figures.yaml"
     threads: 1

@@ -12,6 +12,8 @@ rule film_forecast:
         "results/logs/film_forecast/{split}_B{B}_k{k}.log",
     benchmark:
         "results/benchmarks/film_forecast/{split}_B{B}_k{k}.tsv"
+    group:
+        "films"
     conda:
         "../../envs/figures.yaml"
     threads: 1
@@ -35,6 +37,8 @@ rule film_scene:
         "results/logs/film_scene/{scene}.log",
     benchmark:
         "results/benchmarks/film_scene/{scene}.tsv"
+    group:
+        "films"
     conda:
         "../../envs/figures.yaml"
     threads: 1

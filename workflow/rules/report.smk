@@ -49,6 +49,8 @@ rule show_table:
         "results/logs/show_table/{table}.log",
     benchmark:
         "results/benchmarks/show_table/{table}.tsv"
+    group:
+        "pages"
     conda:
         "../../envs/analysis.yaml"
     threads: 1

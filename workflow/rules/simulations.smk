@@ -10,6 +10,8 @@ rule simulate:
         "results/logs/simulate/B{B}_k{k}.log",
     benchmark:
         "results/benchmarks/simulate/B{B}_k{k}.tsv"
+    group:
+        "simulations"
     conda:
         "../../envs/simulate.yaml"
     threads: 1
@@ -90,6 +92,8 @@ rule check_simulation:
         "results/logs/check_simulation/B{B}_k{k}.log",
     benchmark:
         "results/benchmarks/check_simulation/B{B}_k{k}.tsv"
+    group:
+        "checks"
     conda:
         "../../envs/simulate.yaml"
     threads: 1
