@@ -32,7 +32,7 @@ $(READY): envs/requirements.lock pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit(None if sys.version_info[:2] >= (3, 11) else "sedfiber needs Python 3.11 or newer; try make PYTHON=python3.11")'
 	$(PYTHON) -m venv .venv
 	$(BIN)/pip install -qq --no-deps --require-hashes -r envs/requirements.lock
-	$(BIN)/pip install -qq "$$($(BIN)/python -c 'import tomllib; print(next(d for d in tomllib.load(open("pyproject.toml", "rb"))["project"]["dependencies"] if d.startswith("torch==")))')"
+	$(BIN)/pip install -qq "$$($(BIN)/python -c 'import tomllib; print(next(d for d in tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["train"] if d.startswith("torch==")))')"
 	$(BIN)/pip install -qq --no-deps --no-build-isolation --editable .
 	touch $(READY)
 

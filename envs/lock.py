@@ -13,6 +13,7 @@ HEADER = """\
 OPTIONS = [
     "--generate-hashes",
     "--unsafe-package=torch",
+    "--extra=train",
     "--extra=workflow",
     "--extra=dev",
     "--strip-extras",

@@ -75,6 +75,16 @@ def test_the_bottom_is_weighed_by_the_stated_depth():
     assert "wall" not in verdicts(scene(), start, fallen)
 
 
+def test_the_walls_of_a_channel_are_weighed_by_the_half_width():
+    """A bead 15 a from the middle of a parabolic flow of half-width 20 or 10; of other flows nothing is said."""
+    start, flow = straight_chain(5, 2), {"name": "parabolic", "peak": 1.0}
+    for half_width, matters in ((20.0, False), (10.0, True)):
+        parts = {"flow": flow | {"half_width": half_width}}
+        verdict = verdicts(scene(**parts), start, start - [0.0, 15.0])["channel walls"]
+        assert verdict.matters is matters and verdict.number == pytest.approx(15.0 / half_width)
+    assert "channel walls" not in verdicts(scene(flow={"name": "shear", "rate": 0.1}), start)
+
+
 def test_inextensibility_is_weighed_by_the_largest_strain():
     """One bond of 2.2a: a strain of 0.1, above the 0.05 from which it matters."""
     stretched = straight_chain(5, 2)
@@ -82,6 +92,20 @@ def test_inextensibility_is_weighed_by_the_largest_strain():
     verdict = verdicts(scene(), stretched)["inextensibility"]
     assert verdict.matters and verdict.number == pytest.approx(0.1)
     assert not verdicts(scene(), straight_chain(5, 2))["inextensibility"].matters
+    assert verdict.remedy.startswith("stretching: {factor: 10}, ")
+    stiffer = verdicts(scene(stretching={"factor": 10}), stretched)["inextensibility"]
+    assert stiffer.remedy.startswith("stretching: {factor: 100}, ")  # never what is there already
+
+
+@pytest.mark.parametrize("factor", [10, 1e4])
+def test_the_studys_scene_settles_with_the_stiffer_springs_that_are_advised(factor):
+    """Without an end: the terminal shape is found, and its largest strain is that of the study over the factor."""
+    strains = []
+    for one in (1, factor):
+        run = simulate(Scene(1000, 0.5, stretching={"factor": one}))
+        assert run.settling_time == pytest.approx(136.1, abs=0.3)
+        strains.append(run.metadata["checks"]["bond_strain_max"])
+    assert strains[0] / strains[1] == pytest.approx(factor, rel=0.01)
 
 
 @pytest.mark.parametrize(("B", "matters"), [(1000, False), (10000, True)])

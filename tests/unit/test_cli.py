@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from sedfiber import Scene, read_trajectory, simulate, steady_state
-from sedfiber.cli import COMMANDS, main
+from sedfiber.cli import COMMANDS, STEPS, TOOLS, main
 
 OPTIONS = {"--B": "1000", "--theta0": "0.7854", "--n-beads": "11", "--t-end": "2"}
 SIMULATE = ["simulate", *(word for pair in OPTIONS.items() for word in pair)]
@@ -194,9 +194,9 @@ def test_steady_refuses_bad_numbers(capsys, value):
 @pytest.mark.parametrize(
     ("argv", "named"),
     [
-        ([], "COMMAND"),
+        ([], "command: missing"),
         (["nonsense"], "'nonsense'"),
-        (["--B", "1"], "COMMAND"),
+        (["--B", "1"], "command"),
         (["simulate", "--B", "1000", "--theta0", "0.5"], "-o/--output"),
         ([*SIMULATE, "--angle-index", "3", "-o", "x"], "--angle-index"),
         ([*SIMULATE, "-o", "x", "--colour", "red"], "--colour"),
@@ -261,10 +261,28 @@ def test_numerical_failures_are_one_line(capsys, tmp_path):
 
 
 def test_help_lists_every_command(capsys):
-    """`sedfiber --help` names them all, with a summary each."""
+    """Those that a user calls come first, with a summary each; then the steps of the workflow."""
     assert status_of(["--help"]) == 0
     said = capsys.readouterr().out
     assert all(name in said for name in COMMANDS)
+    tools, _, steps = said.partition("steps of the workflow")
+    assert all(f"  {name} " in tools and summary in tools for name, summary in TOOLS.items())
+    assert all(name in steps for name in STEPS)
+
+
+@pytest.mark.parametrize(("argv", "what"), [([], "missing"), (["forcast", "--B", "100"], "'forcast' is not allowed")])
+def test_a_wrong_command_is_answered_with_those_that_a_user_calls(capsys, argv, what):
+    """Not with all seventy."""
+    line = complaint(capsys, argv, 2)
+    assert what in line and "forecast" in line and "plot_lags" not in line
+
+
+@pytest.mark.parametrize("command", ["simulate", "forecast"])
+def test_a_trajectory_is_not_written_under_the_name_of_another_kind_of_file(capsys, tmp_path, command):
+    """A .csv that holds Parquet would puzzle whatever opens it."""
+    line = complaint(capsys, [command, "--B", "1000", "--theta0", "0.5", "-o", tmp_path / "x.csv"], 1)
+    assert "x.csv" in line and ".parquet" in line
+    assert list(tmp_path.iterdir()) == []
 
 
 def run_process(*argv, **options):
@@ -293,3 +311,14 @@ def test_simulation_imports_neither_torch_nor_pandas_nor_matplotlib(tmp_path):
         "print(status, sorted(heavy))"
     )
     assert run_process("-c", program).stdout.splitlines()[-1] == "0 []"
+
+
+def test_what_needs_torch_says_so_where_it_is_not(tmp_path):
+    """`pip install .` leaves it out: one line on how to get it, before anything else."""
+    program = (
+        "import sys; sys.modules['torch'] = None; from sedfiber.cli import main; "
+        "sys.exit(main(['train_node', '--dataset', 'd.parquet']))"
+    )
+    run = run_process("-c", program, cwd=tmp_path)
+    assert run.returncode == 1 and run.stderr.count("\n") == 1
+    assert "needs torch" in run.stderr and "[train]" in run.stderr

@@ -125,6 +125,19 @@ def test_a_forecast_is_drawn_and_says_that_it_is_one(tmp_path):
     assert main(["plot", str(tmp_path / "f.parquet"), "-o", str(tmp_path / "f.png")]) == 0
 
 
+def test_a_title_tells_of_each_fiber():
+    """Their own ℬ and θ₀ where a scene gives them, once where they are alike, only how many where there are many."""
+
+    def told(fibers):
+        run = simulate(Scene(1000, 0.5, 5, fibers=fibers), t_end=1.0)
+        return title_of(run).removeprefix("simulated: ")
+
+    one, other = (f"$\\mathcal{{B}}$ = {words}°)" for words in ("1000, θ₀ = 0.5 (28.6", "2000, θ₀ = -0.1 (-5.73"))
+    assert told([]) == told([{}, {"place": [40, 0]}]) == one
+    assert told([{}, {"place": [40, 0], "B": 2000, "theta0": -0.1}]) == f"{one}; {other}"
+    assert told([{"place": [40 * k, 0], "B": 1000 + k} for k in range(3)]) == "3 different fibers"
+
+
 def test_what_cannot_be_drawn_is_one_line(fall, tmp_path, capsys):
     """Another kind of picture, a file that tells no scene, none at all."""
     write_trajectory(fall, tmp_path / "a.parquet")

@@ -46,7 +46,8 @@ def test_a_system_blames_its_state():
     x = straight_chain(5, 2)
     x[4] = x[0] + [0.0, 0.4]
     system = system_of(n_beads=5)
-    assert "beads 0 and 4 are 0.4 a apart" in system.loss_of_definiteness(system.to_state(x))
+    words, remedy = system.loss_of_definiteness(system.to_state(x))
+    assert "beads 0 and 4 are 0.4 a apart" in words and remedy == "give hydrodynamics RPY-overlap"
     assert system.loss_of_definiteness(system.to_state(straight_chain(5, 2))) is None
 
 
@@ -57,6 +58,27 @@ def test_a_collapse_is_explained_by_every_integrator(method):
     words = r"not positive definite .*beads \d+ and \d+ are .* a apart at t = 2\d\.\d+ a/U_s; give .*RPY-overlap"
     with pytest.raises(NumericalError, match=words):
         simulate(scene, Numerics(method), 100.0)
+
+
+FLOOR = {"wall": {"point": [0.0, -30.0, 0.0]}, "space": "volume", "hydrodynamics": "RPY-overlap"}
+
+
+@pytest.mark.parametrize(
+    ("method", "interval"), [("LSODA", 0.5), ("BDF", 0.5), ("Radau", 0.5), ("dopri5", 0.5), ("Radau", 100.0)]
+)
+def test_a_bead_in_the_wall_ends_every_march(method, interval):
+    """At the first sample that finds it there, or where steps fail before; never with what the scene has."""
+    words = rf"^{method}: bead \d+ is 0.\d+ a from the wall, less than its radius, at t = 1\d\.?\d* a/U_s; "
+    with pytest.raises(NumericalError, match=f"{words}add contact, or a smaller t_end$"):
+        simulate(Scene(100, 0.5, 31, **FLOOR), Numerics(method, interval=interval), 200.0)
+
+
+def test_a_wall_that_contact_does_not_keep_beads_off():
+    """Advice is not what the scene has already; with noise too, and with one bead."""
+    weak = FLOOR | {"contact": {"strength": 0.01}}
+    for parts in ({}, {"noise": {"peclet": 1e3, "step": 0.05}}):
+        with pytest.raises(NumericalError, match=r"bead 0 is .* give a larger contact.strength, or a smaller t_end$"):
+            simulate(Scene(100, 0.5, 1, **weak, **parts), t_end=100.0)
 
 
 def test_many_beads_lose_it_before_two_do():

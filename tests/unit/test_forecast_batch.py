@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from sedfiber import read_trajectory
+from sedfiber import Scene, read_trajectory, simulate
 from sedfiber.cli import main
-from sedfiber.progress_bar import FEW, with_progress
+from sedfiber.progress_bar import FEW, simulated_time, with_progress
 
 N_BEADS = 7
 
@@ -74,7 +74,7 @@ def test_spreadsheet_marks_and_blanks_do_not_matter(command):
         ("B,theta0\n100,0.3\n100,0.3\n", ["line 3: name: 'B100_theta0.3' is not allowed", "line 2"]),
         ("B,theta0,name\n100,0.3,../x\n", ["line 2: name: '../x' is not allowed"]),
         ("B,theta0,shape\n100,0.3,no.csv\n", ["line 2: shape.file: cannot read"]),
-        ("B,theta0\n100,0.3\n1e5,0.3\n", ["line 3: ", "steady"]),
+        ("B,theta0\n100,0.3\n1e5,0.3\n", ["line 3: ", "ends in a fold"]),
     ],
 )
 def test_one_bad_row_and_nothing_is_written(command, table, words):
@@ -143,3 +143,23 @@ def test_a_bar_is_drawn_for_many_on_a_terminal_alone(monkeypatch):
         assert list(with_progress(items)) == list(items)
         assert ("of 51" in stream.getvalue()) is shown
         assert stream.getvalue().split("\r")[-1].strip() == ""
+
+
+def test_a_long_simulation_says_how_far_it_has_come(monkeypatch):
+    """On a terminal, after some patience; nothing is left of it at the end."""
+    monkeypatch.setattr("sedfiber.progress_bar._PATIENCE", -1.0)
+    for stream, shown in ((Terminal(), True), (io.StringIO(), False)):
+        monkeypatch.setattr(sys, "stderr", stream)
+        with simulated_time() as progress:
+            simulate(Scene(B=100, theta0=0.3, n_beads=3), t_end=5, progress=progress)
+        assert ("of 5 a/U_s" in stream.getvalue()) is shown
+        assert stream.getvalue().split("\r")[-1].strip() == ""
+
+
+@pytest.mark.parametrize("name", ["all.parquet", "all.csv"])
+def test_a_table_is_not_written_as_one_file(tmp_path, capsys, name):
+    """Each row has a file of its own; a folder of that name would puzzle."""
+    (tmp_path / "starts.csv").write_text("B,theta0\n1000,0.3\n")
+    assert main(["forecast", str(tmp_path / "starts.csv"), "-o", str(tmp_path / name)]) == 1
+    assert "give a folder" in capsys.readouterr().err
+    assert not (tmp_path / name).exists()

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -121,14 +122,28 @@ CLOSE = {"theta0": math.pi / 2, "fibers": [{}, {"place": [1.0, 0.0]}]}
         ({"noise": {"step": 1}}, "noise: missing key 'peclet'"),
         ({"disturbance": {"direction": "in-plane"}}, "disturbance: missing key 'amplitude'"),
         ({"own": [{"file": "x.py"}]}, "own: missing key 'effect'"),
-        ({"flow": {}}, "flow.name: is missing; give name and rate"),
-        ({"flow": {"name": "shear"}}, "flow.rate: is missing; give name and rate"),
-        ({"flow": {"name": "parabolic", "peak": 1}}, "flow.half_width: is missing; give name and peak and half_width"),
-        ({"flow": {"name": "shear", "rate": 1, "peak": 1}}, "flow.peak: does not belong to this flow"),
-        ({"flow": {"name": "shear", "gradient": [[0, 1], [0, 0]]}}, "flow.name: does not belong to this flow"),
+        (
+            {"flow": {"rate": 1}},
+            "flow.name: is missing; give {name: shear, extension, rotation, rate: …}, "
+            "{name: parabolic, peak: …, half_width: …} or {gradient: …}, and couple if you like",
+        ),
+        ({"flow": {"name": "shear"}}, "flow.rate: is missing; give {name: shear, rate: …}, and couple"),
+        ({"flow": {"name": "Shear"}}, "flow.name: 'Shear' is not allowed; give one of shear, "),
+        (
+            {"flow": {"name": "parabolic", "peak": 1}},
+            "flow.half_width: is missing; give {name: parabolic, peak: …, half_width: …}, and couple",
+        ),
+        (
+            {"flow": {"name": "shear", "rate": 1, "peak": 1}},
+            "flow.peak: 1 does not belong to this flow; give {name: shear, rate: …}",
+        ),
+        (
+            {"flow": {"name": "shear", "gradient": [[0, 1], [0, 0]]}},
+            "flow.name: 'shear' does not belong to this flow; give {gradient: …}, and couple",
+        ),
         *[
             ({"flow": {"gradient": g}}, "flow.gradient: ")
-            for g in (np.eye(2), np.eye(5), 5, [[1, 2], [3]], [[1]], [["a", 0], [0, 0]])
+            for g in (np.eye(2), np.eye(5), 5, [[1, 2], [3]], [[1]], [["a", 0], [0, 0]], [[NAN, 0], [0, 0]], ["a", "b"])
         ],
         ({"flow": {"gradient": [[1, 0], [0, 1]]}}, "flow.gradient: [[1, 0], [0, 1]] is not allowed"),
         ({"wall": WALL}, "wall: cuts the plane"),
@@ -142,6 +157,15 @@ CLOSE = {"theta0": math.pi / 2, "fibers": [{}, {"place": [1.0, 0.0]}]}
         ({"wall": WALL, "space": "volume", "hydrodynamics": "Oseen"}, "hydrodynamics: Oseen near a wall"),
         ({"wall": {"point": [0, -3.0, 0]}, "space": "volume"}, "wall: bead 0 starts 0.4231 a above it"),
         ({"wall": {"point": [0, 5, 0]}, "space": "volume"}, "wall: bead 0 starts -7.577 a above it"),
+        *[
+            ({"wall": WALL, "space": "volume", "flow": flow}, "flow: is ")
+            for flow in (
+                {"name": "extension", "rate": 0.1},
+                {"name": "shear", "rate": 1e-6},
+                {"name": "parabolic", "peak": 1.0, "half_width": 50.0},
+                {"gradient": [[0, 0, 1], [0, 0, 0], [0, 0, 0]]},
+            )
+        ],
         ({"bending": {"curvature": 0.1}, "space": "volume"}, "bending.curvature: a straight start in volume"),
         ({"fibers": [{}, {"theta0": -0.7}]}, "start: beads 2 and 7 are in one place"),
         (CLOSE, "hydrodynamics: plain RPY is not positive definite for beads 0 and 5, 1 a apart"),
@@ -163,6 +187,23 @@ def test_what_is_missing_or_does_not_go_together_is_refused(values, start):
         {"bending": {"curvature": 0.1}},
         {"bending": {"curvature": 0.1}, "space": "volume", "shape": "rest"},
         {"wall": {"point": np.array([0, -4.0, 0])}, "space": "volume", "flow": {"gradient": np.zeros((3, 3))}},
+        {
+            "wall": {"point": [0, -50, 0]},
+            "space": "volume",
+            "flow": {"name": "parabolic", "peak": 1, "half_width": 50},
+        },
+        {
+            "wall": {"point": [7, 0, 1]},
+            "fibers": [{"place": [0, 9]}],
+            "space": "volume",
+            "flow": {"name": "shear", "rate": 1},
+        },
+        {
+            "wall": {"point": [4, -3, 1], "normal": [0.6, 0.8, 0]},
+            "fibers": [{"place": [0, 20]}],
+            "space": "volume",
+            "flow": {"gradient": [[0.8 * 0.6, 0.8 * 0.8], [-0.6 * 0.6, -0.6 * 0.8]]},
+        },
         {"disturbance": {"amplitude": 0.1}, "gravity": {"direction": [0, 0, -1]}, "space": "volume"},
     ],
 )
@@ -186,6 +227,26 @@ def test_integrators_that_do_not_fit_the_scene_are_refused(values, how, start):
     with pytest.raises(InputError) as error:
         simulate(Scene(**BASE, **values), Numerics(**({"t_end": 1.0} | how)))
     assert str(error.value).startswith(start) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("interval", [0.5, 1.0, 0.3])
+@pytest.mark.parametrize("noise", [{"peclet": 1e-3, "step": 0.5}, {"peclet": 0.1, "step": 0.07}, {"peclet": 1}])
+def test_the_proposed_step_is_accepted_and_the_longest(interval, noise):
+    """The first advice is taken; one part less in the interval would be too long, or no better than what was given."""
+    how, refused = Numerics(interval=interval, t_end=1.0), ""
+    try:
+        how.for_scene(Scene(**BASE, noise=noise))
+    except InputError as error:
+        refused = str(error)
+    match = re.search(r"; give ([\d.e-]+), or ", refused)
+    assert bool(match) == bool(refused)
+    if match:
+        step = float(match[1])
+        how.for_scene(Scene(**BASE, noise=noise | {"step": step}))
+        parts = round(interval / step) - 1
+        if parts and interval / parts <= noise["step"]:
+            with pytest.raises(InputError, match="too long"):
+                how.for_scene(Scene(**BASE, noise=noise | {"step": interval / parts}))
 
 
 PLANAR = {key: st.sampled_from(EXAMPLES[key]) for key in EXAMPLES if key not in ("wall", *LISTS)}
@@ -236,6 +297,10 @@ def test_paths_are_looked_for_beside_the_file(tmp_path, monkeypatch):
         (SCENE + "shape: {file: none.csv}\n", "shape.file: cannot read "),
         (SCENE + "shape: {file: none.npy}\n", "shape.file: cannot read "),
         (SCENE + "numerics: {colour: 1}\n", "numerics: unknown key 'colour'; keys are integrator, "),
+        (SCENE + "t_end: 100\n", "scene: key 't_end' is not allowed here; give it under numerics: { t_end: 100 }"),
+        (SCENE + "contact:\n", "contact: is empty; give {} for the defaults, or none"),
+        (SCENE + "noise: null\n", "noise: is empty; give {peclet, step}, or none"),
+        (SCENE + "fibers:\n", "fibers: is empty; give a list of {B, theta0, place}, or none"),
         (SCENE + "numerics: 3\n", "numerics: 3 is not allowed; give {integrator, "),
         (SCENE + "numerics: {rtol: 0}\n", "rtol: 0 is not allowed"),
         (SCENE + "numerics: {integrator: Euler}\n", "integrator: 'Euler' is not allowed"),
@@ -251,6 +316,13 @@ def test_bad_files_are_one_line_from_the_command(tmp_path, capsys, text, start):
     line = complaint(capsys, ["simulate", path, "-o", tmp_path / "x.parquet"], 1)
     assert line.startswith(f"sedfiber simulate: {start}")
     assert list(tmp_path.iterdir()) == ([] if text is None else [path])
+
+
+def test_what_a_scene_has_unless_it_says_otherwise_may_be_empty(tmp_path):
+    """The record of a scene without gravity says so by null; from Python None leaves out any part."""
+    path = tmp_path / "scene.yaml"
+    path.write_text(yaml.safe_dump(Scene(**BASE, gravity=None, contact=None).to_dict()))
+    assert read_scene(path)[0] == Scene(**BASE, gravity="none")
 
 
 def test_options_override_the_file(tmp_path):
@@ -304,11 +376,18 @@ def test_rest_shape_of_a_curved_fiber(shape):
     assert_allclose(np.linalg.norm(np.diff(x, axis=0), axis=1), 2.0, rtol=1e-14)
 
 
-@pytest.mark.parametrize("shape", ["arc", 3, [[0, 0]], ROWS[:4], [[1, 2], [3]], [[0, NAN]] * 5, {"fil": "x.csv"}])
+@pytest.mark.parametrize("shape", ["arc", 3, [[0, 0, 0, 0]] * 5, [[1, 2], [3]], [[0, NAN]] * 5, {"fil": "x.csv"}])
 def test_bad_shapes_are_refused(shape):
     """One line with what a shape may be."""
     line = refusal(shape=shape)
     assert line.startswith("shape: ") and "give straight, rest, {file: PATH}, or 5 rows of 2 or 3 finite" in line
+
+
+@pytest.mark.parametrize("rows", [1, 4, 21])
+def test_a_shape_of_another_number_of_beads_is_told_by_its_rows(rows):
+    """Not by its numbers, of which there are too many."""
+    line = refusal(shape=[[2.0 * k, 0.0] for k in range(rows)])
+    assert line == f"shape: a row count of {rows} is not allowed; give 5 rows, one a bead (n_beads)"
 
 
 @given(seed=st.integers(0, 10**6), amplitude=st.floats(0.0, 0.5))
@@ -348,7 +427,10 @@ def test_effects_lists_every_part(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert main(["effects", "--json"]) == 0
     effects = {effect["key"]: effect for effect in json.loads(capsys.readouterr().out)}
-    assert set(effects) == {"space", "hydrodynamics"} | {part.key for part in PARTS}
+    assert set(effects) == {*Scene.__dataclass_fields__, "numerics"}
+    assert [one["name"] for one in effects["numerics"]["parameters"]] == [*Numerics.__dataclass_fields__]
+    assert effects["B"]["default"] == "required" and effects["shape"]["default"] == "none"
+    assert effects["tilt"]["default"] == Scene.tilt and effects["seed"]["default"] == 0
     assert len(lines) == sum(1 + len(effect["parameters"]) for effect in effects.values())
     for part in PARTS:
         effect = effects[part.key]

@@ -122,13 +122,13 @@ def test_tilted_start_is_recorded():
 
 def test_a_run_that_does_not_settle_in_time_is_an_error():
     """max_time bounds a run without an end; the message says what to do."""
-    with pytest.raises(NumericalError, match=r"not settled by t = 20 .*--t-end"):
+    with pytest.raises(NumericalError, match=r"^not settled by t = 20 .*--t-end"):
         simulate(Scene(1000, 0.5), Numerics(max_time=20))
 
 
 def test_rest_in_another_steady_shape_is_an_error():
     """An exactly vertical fiber falls straight for ever: steady, far from the U, and never called settled."""
-    with pytest.raises(NumericalError, match=r"came to rest .* 0\.\d+ L from the terminal"):
+    with pytest.raises(NumericalError, match=r"^came to rest .* 0\.\d+ L from the terminal"):
         simulate(Scene(1000, np.pi / 2))
 
 

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 import sedfiber
-from sedfiber import InputError, Scene, SteadyState, simulate, steady_state
+from sedfiber import InputError, NumericalError, Scene, SteadyState, simulate, steady_state
+from sedfiber.physics.steady import terminal_state
+from sedfiber.physics.steady_curve import SteadyCurve
 
 
 def test_public_interface():
@@ -86,3 +88,17 @@ def test_nearly_rigid_fibers_deflect_linearly(B):
 def test_however_stiff_the_deflection_is_linear(B):
     """The exact mirror symmetry takes out what round-off would hide the balance in."""
     assert steady_state(B).height / (62.0 * B) == pytest.approx(5.91341396e-4, rel=1e-6)
+
+
+@pytest.mark.parametrize("factor", [0.1, 3.0, 100.0, 1e6])
+def test_stiffer_springs_have_a_terminal_shape_as_well(factor):
+    """Round-off of the springs is no reason to find none; the height differs by the strain of the bonds alone."""
+    state, usual = terminal_state(Scene(1000, 0.5, stretching={"factor": factor})), steady_state(1000)
+    assert state.height == pytest.approx(usual.height, rel=0.05 if factor < 1 else 0.01)
+
+
+def test_a_shape_that_is_not_found_is_named_by_what_was_asked_for(monkeypatch):
+    """Not by the ℬ from which the solver follows the curve alone."""
+    monkeypatch.setattr(SteadyCurve, "nearest", lambda *_: None)
+    with pytest.raises(NumericalError, match=r"for B=1000, 31 beads and stretching.factor 10: no nearly .* at B=10 to"):
+        terminal_state(Scene(1000, 0.5, stretching={"factor": 10}))

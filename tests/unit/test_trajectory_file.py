@@ -226,3 +226,10 @@ def test_column_names_count_beads():
     assert bead_count(["t", *coordinate_names(31)]) == 31
     assert bead_count(["t", "x0", "y0", "z0", "x2", "y2", "z2"]) == 0
     assert bead_count(["t", "xray"]) == 0
+
+
+def test_a_trajectory_shows_itself_in_one_line(trajectory):
+    """What a user sees who prints it; not its numbers."""
+    shown = repr(trajectory)
+    assert "\n" not in shown and len(shown) < 120
+    assert f"{len(trajectory.t)} samples" in shown and f"{trajectory.positions.shape[1]} beads" in shown

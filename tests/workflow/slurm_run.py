@@ -13,7 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from one_node_slurm import one_node_slurm, reason_against
+from one_node_slurm import cancel_all, one_node_slurm, reason_against
 from workflow_helpers import clean_environment, results_of
 
 pytestmark = pytest.mark.slow
@@ -103,11 +103,8 @@ def _kill_among_the_autoencoders(checkout, log: Path) -> None:
     run.wait()
     assert len(list(trained.glob("*/card.json"))) < 8, "killed too late to be in the middle"
     assert jobs_of_slurm("RUNNING"), "no job outlived Snakemake"
-    subprocess.run(["scancel", "--me"], check=True)
-    end = time.monotonic() + 60
-    while jobs_of_slurm("PENDING,RUNNING,COMPLETING"):
-        assert time.monotonic() < end, "jobs were not cancelled"
-        time.sleep(0.2)
+    cancel_all()
+    assert not jobs_of_slurm("PENDING,RUNNING,COMPLETING")
 
 
 def _look_at_the_jobs(checkout) -> None:

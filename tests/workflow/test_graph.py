@@ -79,11 +79,32 @@ def test_a_hard_case_reruns_with_the_module_that_measures_it(empty):
 
 
 def test_every_file_in_scenes_is_a_scene(empty):
-    """A user's own file in scenes/ is run and drawn like the nine examples."""
-    assert empty.planned("scenes")["simulate_scene"] == empty.planned("scenes")["plot_scene"] == 9
-    text = (empty.folder / "scenes/study.yaml").read_text(encoding="utf-8")
-    (empty.folder / "scenes/mine.yaml").write_text(text.replace("B: 1000", "B: 1200"), encoding="utf-8")
-    assert empty.planned("scenes")["simulate_scene"] == 10
+    """A user's own file in scenes/ is run and drawn like the examples, with a hyphen in its name too."""
+    scenes = empty.folder / "scenes"
+    examples = len(list(scenes.glob("*.yaml")))
+    assert empty.planned("scenes")["simulate_scene"] == empty.planned("scenes")["plot_scene"] == examples
+    text = (scenes / "study.yaml").read_text(encoding="utf-8")
+    (scenes / "my-own.yaml").write_text(text.replace("B: 1000", "B: 1200"), encoding="utf-8")
+    assert empty.planned("scenes")["simulate_scene"] == examples + 1
+
+
+@pytest.mark.parametrize("name", ["my.own.yaml", "my own.yaml", "-mine.yaml", "mine.yml"])
+def test_a_scene_with_a_name_that_no_rule_knows_is_refused(empty, name):
+    """One line before any job starts."""
+    (empty.folder / "scenes" / name).write_text("B: 1000\ntheta0: 0.5\n", encoding="utf-8")
+    run = empty.snakemake("-n", "scenes")
+    lines = [line for line in run.stderr.splitlines() if not line.startswith("Using workflow specific profile")]
+    assert run.returncode != 0 and len(lines) == 1
+    assert lines[0].startswith(f"scenes: {name!r} is not allowed; give it a name of letters")
+
+
+def test_a_start_shape_beside_the_scenes_is_an_input(empty):
+    """A trajectory to start from as well: the scenes run again when it changes."""
+    result = "results/scenes/study.parquet"
+    (empty.folder / "scenes/start.parquet").write_bytes(b"one")
+    assert empty.snakemake("-j1", result).returncode == 0 and empty.planned(result) == {}
+    (empty.folder / "scenes/start.parquet").write_bytes(b"another")
+    assert empty.planned(result) == {"simulate_scene": 1}
 
 
 def test_a_second_run_has_nothing_to_do(finished):

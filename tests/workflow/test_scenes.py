@@ -1,6 +1,7 @@
 """The example scenes, the effects and the third dimension: each target runs, and its numbers are right."""
 
 import json
+from pathlib import Path
 
 import pandas as pd
 import pyarrow.parquet as pq
@@ -14,6 +15,7 @@ EXAMPLES = {
     "study", "volume_disturbed", "shear_tumbling", "extension_buckling", "wall_approach",
     "curved_at_rest", "brownian", "two_fibers", "free_draining",
 }  # fmt: skip
+ALL = {path.stem for path in (Path(__file__).parents[2] / "scenes").glob("*.yaml")}  # a user's own, too
 
 
 @pytest.fixture(scope="module")
@@ -26,11 +28,12 @@ def drawn(tmp_path_factory, check_out_tiny):
 
 
 def test_every_example_has_a_run_and_a_picture(drawn):
-    """Nine files in, nine runs and nine pictures out."""
+    """As many runs and pictures out as files in, the package's own among them."""
+    assert ALL >= EXAMPLES
     results = drawn.folder / "results"
-    assert {path.stem for path in (results / "scenes").glob("*.parquet")} == EXAMPLES
-    assert {path.stem for path in (results / "figures/scenes").glob("*.png")} == EXAMPLES
-    assert {path.stem for path in (results / "figures/scenes").glob("*.svg")} == EXAMPLES
+    assert {path.stem for path in (results / "scenes").glob("*.parquet")} == ALL
+    assert {path.stem for path in (results / "figures/scenes").glob("*.png")} == ALL
+    assert {path.stem for path in (results / "figures/scenes").glob("*.svg")} == ALL
 
 
 def test_every_example_takes_less_than_a_minute(drawn):

@@ -11,7 +11,7 @@ sys.path.insert(0, str(BASE / "workflow"))
 
 from sedfiber.hard_cases.listing import NAMES as HARD_CASES, case_of
 from sedfiber.source_files import command_sources, module_sources
-from sedfiber.study import Study, as_options
+from sedfiber.study import SCENE_NAME, Study, as_options, scene_names
 
 STUDY = Study.from_config(config, BASE / "workflow/schemas/config.schema.yaml")
 
@@ -24,7 +24,7 @@ wildcard_constraints:
     dim=r"\d+",
     seed=r"\d+",
     model=r"(?!lookup)\w+",
-    scene=r"\w+",
+    scene=SCENE_NAME,
     case=r"\w+",
 
 
@@ -91,7 +91,9 @@ def forecaster_words(name):
 def scene_files(scene):
     """A scene's file, and the files beside it that scenes name: start shapes, effects of the user's."""
     beside = [
-        path for path in (BASE / "scenes").glob("*") if path.suffix in (".csv", ".npy", ".py")
+        path
+        for path in (BASE / "scenes").glob("*")
+        if path.suffix in (".csv", ".npy", ".parquet", ".py")
     ]
     return [here(path) for path in [BASE / "scenes" / f"{scene}.yaml", *sorted(beside)]]
 
@@ -153,7 +155,7 @@ def short_model(variant, dim, seed):
 # Jobs that measure time take all cores, so that nothing runs beside them. Snakemake cuts it down to
 # what there is; workflow.cores would do, but is unknown where only the graph is asked for.
 EVERY_CORE = 1024
-SCENES = sorted(path.stem for path in (BASE / "scenes").glob("*.yaml"))
+SCENES = scene_names(BASE / "scenes")
 TEST_SETS = ("A", "B")
 NODES = config["node"]["models"]
 FORECAST_MODEL = config["node"]["forecast_model"]

@@ -19,6 +19,13 @@ def require_writable(path: Path) -> None:
         raise InputError(f"output: folder {str(folder)!r} is not writable; give another path")
 
 
+def require_parquet(path: Path) -> None:
+    """Refuse, before any work is done, an output that is no new Parquet file."""
+    require_writable(path)
+    if path.suffix != ".parquet":
+        raise InputError(f"output: {str(path)!r} is written as Parquet; give a name that ends in .parquet")
+
+
 def require_folder(folder: Path) -> None:
     """Make an output folder, or refuse, before any work is done, one that cannot take files."""
     try:

@@ -57,8 +57,10 @@ def audit(scene: Scene, system: System, t: Times, states: State) -> list[Verdict
         found.append(_third_dimension(scene, system, t, states))
     if scene.wall is None and scene.depth is not None and scene.gravity is not None:
         found.append(_bottom(scene, system.to_positions(states)))
+    if scene.wall is None and scene.flow is not None and scene.flow.half_width is not None:
+        found.append(_channel(scene.flow.half_width, system.to_positions(states)))
     if scene.stretching is not None and scene.n_beads > 1:
-        found.append(_stretch(shapes, scene.n_beads))
+        found.append(_stretch(shapes, scene.n_beads, scene.stretching.factor))
     return found
 
 
@@ -113,9 +115,17 @@ def _bottom(scene: Scene, positions: History) -> Verdict:
     return Verdict("wall", fall > 1.0, fall, f"of the depth {scene.depth:g} a fallen", "wall: {point: …}")
 
 
-def _stretch(shapes: History, n_beads: int) -> Verdict:
+def _channel(half_width: float, positions: History) -> Verdict:
+    """Beyond its half-width a parabolic flow turns back, where a channel has its walls."""
+    furthest = float(np.abs(positions[..., 1]).max()) / half_width
+    meaning = "of half_width, furthest that a bead got from y = 0"
+    return Verdict("channel walls", furthest > 1.0, furthest, meaning, "wall: {point: …}")
+
+
+def _stretch(shapes: History, n_beads: int, factor: float) -> Verdict:
     """What an inextensible model would not show."""
     bonds = np.diff(shapes.reshape(len(shapes), -1, n_beads, shapes.shape[-1]), axis=2)
     strain = float(np.abs(0.5 * np.linalg.norm(bonds, axis=3) - 1.0).max())
     meaning = "largest bond strain, which an inextensible fiber would not show"
-    return Verdict("inextensibility", strain > STRETCH, strain, meaning, "stretching: {factor: 10}, or beads")
+    stiffer = f"stretching: {{factor: {10.0 * factor:g}}}, or beads"
+    return Verdict("inextensibility", strain > STRETCH, strain, meaning, stiffer)

@@ -3,13 +3,15 @@
 import argparse
 import re
 import sys
+import textwrap
 import warnings
 from importlib import import_module
 from typing import NoReturn
 
 from sedfiber.errors import SedfiberError
 
-COMMANDS = {
+# what a user calls
+TOOLS = {
     "simulate": "integrate a scene and write its trajectory",
     "effects": "every effect a scene may list: parameters, units, defaults, source",
     "steady": "terminal shape and speed at one elasto-gravitational number",
@@ -17,6 +19,9 @@ COMMANDS = {
     "plot": "draw any trajectory, simulated or forecast",
     "compare": "E(t) of one trajectory against another",
     "advise": "which method or model reaches an accuracy, and what it takes on this machine",
+}
+# what the rules of the workflow call
+STEPS = {
     "solve_terminal_shapes": "steady shapes of several elasto-gravitational numbers in one table",
     "solve_terminal_curve": "terminal shapes of a whole range of elasto-gravitational numbers as one series",
     "aggregate_dataset": "the trajectories of one split as one data set",
@@ -80,6 +85,10 @@ COMMANDS = {
     "film_forecast": "film: a test trajectory, true and forecast, with E(t) running below",
     "film_scene": "film: a scene's run",
 }
+COMMANDS = TOOLS | STEPS
+# what comes with the extra `train` of the package
+TRAINING = ("torch", "torchdiffeq", "pytorch_optimizer")
+REMEDY = "in the checkout: pip install '.[train]', or make environment"
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -97,20 +106,57 @@ class OneLineParser(argparse.ArgumentParser):
 def main(argv: list[str] | None = None) -> int:
     """Run one command; returns the exit status: 0, 1 for a failure, 2 for bad usage."""
     argv = sys.argv[1:] if argv is None else argv
-    parser = OneLineParser(prog="sedfiber", description=__doc__.splitlines()[0])
-    verbs = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    chosen = next((word for word in argv if not word.startswith("-")), None)
-    for name, summary in COMMANDS.items():
-        sub = verbs.add_parser(name, help=summary, description=summary)
-        if name == chosen:  # only the chosen command is imported
-            import_module(f"sedfiber.commands.{name}").add_arguments(sub)
-    args = parser.parse_args(argv)
+    command = next((word for word in argv if not word.startswith("-")), None)
     warnings.filterwarnings("ignore", category=UserWarning, module="scipy.integrate")  # they become our errors
     try:
+        args = _parser(command, argv).parse_args(argv)
         import_module(f"sedfiber.commands.{args.command}").run(args)
     except SedfiberError as error:
-        print(f"sedfiber {args.command}: {error}", file=sys.stderr)
-        return 1
+        return _failed(command, str(error))
+    except ModuleNotFoundError as error:
+        if error.name not in TRAINING:
+            raise
+        return _failed(command, f"needs {error.name}, which is not installed; {REMEDY}")
     except KeyboardInterrupt:
         return 130
     return 0
+
+
+def _parser(command: str | None, argv: list[str]) -> OneLineParser:
+    """Knows every command by name, and the options of the one that is asked for, which alone is imported."""
+    parser = OneLineParser(
+        prog="sedfiber",
+        usage="sedfiber COMMAND [options]",
+        description=_listed(),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    if command not in COMMANDS and not {"-h", "--help"} & set(argv):
+        what = "missing" if command is None else f"{command!r} is not allowed"
+        parser.error(f"command: {what}; give {', '.join(TOOLS)}, or a step of the workflow (sedfiber --help)")
+    verbs = parser.add_subparsers(
+        dest="command",
+        prog="sedfiber",
+        required=True,
+        metavar="COMMAND",
+        help=argparse.SUPPRESS,
+        parser_class=OneLineParser,
+    )
+    for name, summary in COMMANDS.items():
+        sub = verbs.add_parser(name, description=summary)  # without help: the description above lists them
+        if name == command:
+            import_module(f"sedfiber.commands.{name}").add_arguments(sub)
+    return parser
+
+
+def _failed(command: str | None, words: str) -> int:
+    print(f"sedfiber {command}: {words}", file=sys.stderr)
+    return 1
+
+
+def _listed() -> str:
+    """All commands, those that a user calls first."""
+    width = max(map(len, TOOLS)) + 2
+    tools = [f"  {name:<{width}}{summary}" for name, summary in TOOLS.items()]
+    steps = textwrap.wrap(", ".join(STEPS), 100, initial_indent="  ", subsequent_indent="  ")
+    words = "Flexible fibers that sink in a viscous fluid. `sedfiber COMMAND --help` lists a command's options."
+    return "\n".join([words, "", "commands:", *tools, "", "steps of the workflow, called by its rules:", *steps])

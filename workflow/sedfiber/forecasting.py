@@ -97,6 +97,9 @@ class Forecaster:
         longer than the forecasts. A start beyond ±π/2 has its beads counted from the left. For what `load_model`
         gives: a plain model has no sweep. Raises as `forecast`.
         """
+        if not len(B) == len(theta0) == len(counts):
+            lengths = f"{len(B)}, {len(theta0)} and {len(counts)} values"
+            raise InputError(f"sweep: B, theta0 and counts have {lengths}; give as many of each")
         starts = [self.start(*one) for one in zip(B, theta0, strict=True)]
         return self.model.sweep(starts, interval, counts, out, dtype)
 

@@ -1,9 +1,10 @@
 """How a scene is integrated."""
 
+import math
 from dataclasses import dataclass, replace
 
 from sedfiber.errors import InputError
-from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, March, StochasticMidpoint, Tolerances
+from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, AboveWall, March, StochasticMidpoint, Tolerances
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
 from sedfiber.validation import number_within, one_of, positive_number, yes_or_no
@@ -65,21 +66,32 @@ class Numerics:
         """The chosen integrator on ``system``."""
         tolerances = Tolerances(self.rtol, self.atol)
         if scene.noise is not None:
-            return StochasticMidpoint(system, tolerances, scene.noise.temperature, scene.noise.step, scene.seed)
-        return INTEGRATORS[self.integrator or DEFAULT_INTEGRATOR](system, tolerances)
+            march = StochasticMidpoint(system, tolerances, scene.noise.temperature, scene.noise.step, scene.seed)
+        else:
+            march = INTEGRATORS[self.integrator or DEFAULT_INTEGRATOR](system, tolerances)
+        return march if scene.wall is None else AboveWall(march)
 
 
 def _require_step(scene: Scene, interval: float) -> None:
     """The step of a scene with noise must divide the interval, and be short enough for its bonds."""
-    step = scene.noise.step
+    step, longest = scene.noise.step, _longest_step(scene)
+    fitting = interval / math.ceil(interval / min(step, longest, interval))
     ratio = interval / step
     if abs(ratio - round(ratio)) > 1e-9 * ratio or round(ratio) < 1:
         raise InputError(
-            f"noise.step: {step:g} does not divide the sampling interval {interval:g}; give a whole fraction of it"
+            f"noise.step: {step:g} does not divide the sampling interval {interval:g}; give {fitting:.12g}, "
+            "or a smaller whole fraction of it"
         )
-    if scene.stretching is None or scene.n_beads == 1:
-        return
-    modulus = scene.stretching.factor * max(scene.moduli)
-    longest = LONGEST_STEP * (2.0 / (scene.noise.temperature * modulus)) ** 0.5
     if step > longest:
-        raise InputError(f"noise.step: {step:g} is too long for bonds so warm and stiff; give {longest:.2g} or less")
+        raise InputError(
+            f"noise.step: {step:g} is too long for bonds so warm and stiff; give {fitting:.12g}, "
+            f"or a smaller whole fraction of the sampling interval {interval:g}"
+        )
+
+
+def _longest_step(scene: Scene) -> float:
+    """The step up to which the scheme keeps the bonds of a scene with noise; infinite where it has none."""
+    if scene.stretching is None or scene.n_beads == 1:
+        return math.inf
+    modulus = scene.stretching.factor * max(scene.moduli)
+    return LONGEST_STEP * (2.0 / (scene.noise.temperature * modulus)) ** 0.5

@@ -104,6 +104,11 @@ class Scene:
         return 24.0 * self.n_beads**3 / B
 
     @property
+    def stiffening(self) -> float:
+        """The stiffest of the fiber's moduli over ℰ: that of its springs where these are stiffer than its material."""
+        return 1.0 if self.stretching is None else max(1.0, self.stretching.factor)
+
+    @property
     def moduli(self) -> list[float]:
         """ℰ of each fiber."""
         return [self.modulus_at(fiber.B or self.B) for fiber in self.fibers or (Fiber(),)]

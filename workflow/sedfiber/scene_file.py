@@ -9,6 +9,8 @@ import yaml
 from sedfiber.errors import InputError
 from sedfiber.numerics import Numerics
 from sedfiber.scene import Scene
+from sedfiber.scene_part import Part
+from sedfiber.scene_parts import PARTS, Contact, Fiber, Own
 
 
 class _Loader(yaml.SafeLoader):
@@ -38,11 +40,29 @@ def read_scene(path: str | Path, **changes: Any) -> tuple[Scene, Numerics]:
     for key in how:
         if key not in Numerics.__dataclass_fields__:
             raise InputError(f"numerics: unknown key {key!r}; keys are {', '.join(Numerics.__dataclass_fields__)}")
-    for key in values:
-        if key not in Scene.__dataclass_fields__:
-            raise InputError(f"scene: unknown key {key!r}; keys are {', '.join(Scene.__dataclass_fields__)}, numerics")
+    _require_known(values)
     _look_beside(values, Path(path).parent)
     return Scene.from_dict(values | changes), Numerics(**how)
+
+
+def _require_known(values: dict[str, Any]) -> None:
+    """Keys of a scene alone, and none that names a part and then says nothing of it."""
+    for key, value in values.items():
+        if key in Numerics.__dataclass_fields__:
+            raise InputError(f"scene: key {key!r} is not allowed here; give it under numerics: {{ {key}: {value!r} }}")
+        if key not in Scene.__dataclass_fields__:
+            raise InputError(f"scene: unknown key {key!r}; keys are {', '.join(Scene.__dataclass_fields__)}, numerics")
+    for part in PARTS:
+        if part.key in values and values[part.key] is None and not Scene.__dataclass_fields__[part.key].default:
+            raise InputError(f"{part.key}: is empty; give {_filled(part)}, or none")
+
+
+def _filled(part: type[Part]) -> str:
+    """What may stand behind the key of a part that no scene has unless it says so."""
+    if part is Contact:
+        return "{} for the defaults"
+    words = f"{{{', '.join(part.names())}}}"
+    return f"a list of {words}" if part in (Fiber, Own) else words
 
 
 def _mapping(path: Path) -> dict[str, Any]:

@@ -7,7 +7,6 @@ does to the fiber is in ``sedfiber.physics``, in the module that ``acts_in`` nam
 import json
 import math
 from dataclasses import dataclass
-from typing import Any
 
 from sedfiber.errors import InputError
 from sedfiber.scene_part import Part, parameter
@@ -16,10 +15,10 @@ from sedfiber.validation import (
     finite_number,
     number_within,
     one_of,
-    plain,
     positive_number,
     refused,
     vector,
+    velocity_gradient,
     yes_or_no,
 )
 
@@ -111,21 +110,18 @@ class Flow(Part):
     couple: bool = parameter("-", "beads turn with the fiber and not freely, so that the flow turns it too", True)
 
     def __post_init__(self) -> None:
-        wanted = self._wanted()
-        for name in ("name", "rate", "gradient", "peak", "half_width"):
-            given = getattr(self, name) is not None
-            if given != (name in wanted):
-                what = "does not belong to this flow" if given else "is missing"
-                raise InputError(f"flow.{name}: {what}; give {' and '.join(wanted)}")
         if self.name is not None:
             self._check(one_of, "name", FLOWS)
-        if "rate" in wanted:
-            self._check(finite_number, "rate")
-        if "peak" in wanted:
-            self._check(finite_number, "peak")
-            self._check(positive_number, "half_width")
-        if "gradient" in wanted:
-            self._check(_gradient, "gradient")
+        wanted = self._wanted()
+        for name in ("name", "gradient", "rate", "peak", "half_width"):
+            given = getattr(self, name) is not None
+            if given != (name in wanted):
+                what = f"{getattr(self, name)!r} does not belong to this flow" if given else "is missing"
+                raise InputError(f"flow.{name}: {what}; give {self._form()}, and couple if you like")
+        for name, check in (("rate", finite_number), ("peak", finite_number), ("half_width", positive_number),
+                            ("gradient", velocity_gradient)):  # fmt: skip
+            if name in wanted:
+                self._check(check, name)
         self._check(yes_or_no, "couple")
 
     def _wanted(self) -> tuple[str, ...]:
@@ -133,20 +129,14 @@ class Flow(Part):
             return ("gradient",)
         return ("name", "peak", "half_width") if self.name == "parabolic" else ("name", "rate")
 
-
-def _gradient(key: str, value: Any) -> tuple:
-    """A velocity gradient as three rows of three, from two rows of two or three of three."""
-    allowed = "two rows of two or three rows of three finite numbers without a sum on the diagonal"
-    value = plain(value)
-    if not isinstance(value, list | tuple) or len(value) not in (2, 3):
-        raise refused(key, value, allowed)
-    rows = [vector(key, row) for row in value]
-    if any(len(row) != len(value) for row in value):
-        raise refused(key, value, allowed)
-    rows += [(0.0, 0.0, 0.0)] * (3 - len(rows))
-    if abs(sum(rows[k][k] for k in range(3))) > 1e-12 * max(abs(e) for row in rows for e in row):
-        raise refused(key, value, f"{allowed} (the fluid is incompressible)")
-    return tuple(rows)
+    def _form(self) -> str:
+        """The keys of this flow as a file has them; those of all flows where it is not known which it is."""
+        parabolic, gradient = "{name: parabolic, peak: …, half_width: …}", "{gradient: …}"
+        if self.gradient is not None:
+            return gradient
+        if self.name is None:
+            return f"{{name: {', '.join(FLOWS[:-1])}, rate: …}}, {parabolic} or {gradient}"
+        return parabolic if self.name == "parabolic" else f"{{name: {self.name}, rate: …}}"
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,10 @@ from sedfiber.physics.definiteness import CLOSE, closest_pair, least_eigenvalue
 
 if TYPE_CHECKING:
     from sedfiber.scene import Scene
+    from sedfiber.scene_parts import Flow
 
 _TOUCHING = 2.0 * (1.0 - 1e-9)
+_NO_SLIP = 1e-6  # of the flow's speed as far away as the wall: what a normal written with few digits leaves on it
 
 
 def require_sense(scene: "Scene") -> None:
@@ -30,6 +32,7 @@ def require_sense(scene: "Scene") -> None:
         )
     if scene.wall is not None:
         _require_above_wall(scene, scene.start())
+        _require_no_slip(scene)
     if scene.fibers or scene.shape is not None or scene.disturbance is not None:
         _require_apart(scene, scene.start())
     if scene.hydrodynamics == "Oseen":
@@ -74,6 +77,31 @@ def _require_above_wall(scene: "Scene", x: Positions) -> None:
             f"wall: bead {lowest} starts {heights[lowest]:.4g} a above it, less than its radius; "
             "move wall.point or turn wall.normal to the fiber's side"
         )
+
+
+def _require_no_slip(scene: "Scene") -> None:
+    """A flow through or along the wall contradicts it."""
+    if scene.flow is None:
+        return
+    point, normal = np.array(scene.wall.point), np.array(scene.wall.normal)
+    along = np.linalg.svd(normal[None])[2][1:]  # two directions in the wall
+    on_wall = point + np.array([a * along[0] + b * along[1] for a in (-1, 0, 1) for b in (-1, 0, 1)])
+    slip = np.abs(_flow_velocity(scene.flow, on_wall)).max()  # at most quadratic: zero there means all over the wall
+    usual = np.abs(_flow_velocity(scene.flow, (1.0 + np.abs(point).max()) * np.eye(3))).max()
+    if slip > _NO_SLIP * usual:
+        raise InputError(
+            f"flow: is {slip:.3g} U_s at wall.point or beside it, on a wall without slip; give a flow that is zero "
+            "all over the wall, such as a shear over wall.point [0, 0, 0], with fibers.place to put the fiber above"
+        )
+
+
+def _flow_velocity(flow: "Flow", x: Positions) -> Positions:
+    """Velocity of the fluid, and not of a bead in it, at points (P, 3)."""
+    if flow.name == "parabolic":
+        return np.outer(flow.peak * (1.0 - (x[:, 1] / flow.half_width) ** 2), [1.0, 0.0, 0.0])
+    from sedfiber.physics.linear_flow import named_gradient  # compiled: only for those who ask
+
+    return x @ np.array(flow.gradient or named_gradient(flow.name, flow.rate)).T
 
 
 def _require_apart(scene: "Scene", x: Positions) -> None:

@@ -35,16 +35,14 @@ class Watch:
         if distance < CONFIRMED:
             return True
         if t > self._max_time:
-            raise NumericalError(
-                f"simulate: not settled by t = {self._max_time:g} (distance {distance:.3g} L); give --t-end"
-            )
+            raise NumericalError(f"not settled by t = {self._max_time:g} (distance {distance:.3g} L); give --t-end")
         if distance < SETTLED or np.abs(self._system.relative_velocities(y)).max() > _STANDSTILL:
             return False
         if self._symmetric and self.settled_to(y) is not None:
             return True
         name = "the unstable W" if self.settled_to(y) == "W" else "a steady shape"
         raise NumericalError(
-            f"simulate: came to rest at t = {t:g} in {name}, {distance:.3g} L from the terminal one; "
+            f"came to rest at t = {t:g} in {name}, {distance:.3g} L from the terminal one; "
             "give --t-end, or a larger --tilt to leave a symmetric start"
         )
 
@@ -70,7 +68,7 @@ class Watch:
         rate = self._leaving_rate(start)
         if rate >= round_off(self._scene) and not self._symmetric:
             raise NumericalError(
-                f"simulate: at B={self._scene.B:g} the terminal U is unstable to what this run is free to do "
+                f"at B={self._scene.B:g} the terminal U is unstable to what this run is free to do "
                 f"(rate {rate:.3g} U_s/a), and it will not settle; give --t-end"
             )
 

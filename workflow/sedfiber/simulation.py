@@ -3,6 +3,7 @@
 import hashlib
 from dataclasses import asdict, replace
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -25,14 +26,22 @@ from sedfiber.validation import positive_number
 _LOOK_EVERY = 16  # samples between two looks at whether the run has settled
 
 
-def simulate(scene: Scene, numerics: Numerics | None = None, t_end: float | None = None) -> Trajectory:
+class Watcher(Protocol):
+    """Is told the time of every sample, and the time of the end where that is known, in a/U_s."""
+
+    def __call__(self, t: float, t_end: float | None, /) -> None: ...
+
+
+def simulate(
+    scene: Scene, numerics: Numerics | None = None, t_end: float | None = None, progress: Watcher | None = None
+) -> Trajectory:
     """Integrate a scene and sample it every τ.
 
     Without ``t_end``, here or in ``numerics``, a scene that has a terminal shape runs until it is
     within 1e-4 L of it, and the record ends with the first sample after the settling time
     T(ℬ, θ₀).  With ``t_end`` it ends with the last sample at or before ``t_end``.  An exactly
     symmetric scene (``tilt = 0``) stays so to the last bit and may settle onto the W instead;
-    ``settled_to`` in the metadata says what it settled to.  Raises
+    ``settled_to`` in the metadata says what it settled to.  ``progress`` follows a long run.  Raises
     InputError when a scene without a terminal shape is given no end, NumericalError when the
     integrator fails, a check breaks its bound, a run without an end does not settle, or the
     estimated error of a run at loose tolerances is out of proportion to them.
@@ -41,11 +50,14 @@ def simulate(scene: Scene, numerics: Numerics | None = None, t_end: float | None
     if t_end is not None:
         numerics = replace(numerics, t_end=positive_number("t_end", t_end))
     if numerics.t_end is None and not scene.has_terminal_shape:
-        raise InputError("t_end: missing; this scene has no terminal shape to settle to, give a time to end at")
+        raise InputError(
+            "t_end: missing; this scene has no terminal shape to settle to, give a time to end at "
+            "(--t-end; in a scene file, t_end under numerics)"
+        )
     system = system_of(scene)
     march = numerics.march(system, scene)
     watch = Watch(scene, system, numerics.t_end is not None, numerics.max_time)
-    states = _run(march, scene, watch, numerics)
+    states = _run(march, scene, watch, numerics, progress)
     t = numerics.interval * np.arange(len(states))
     settled_to = watch.settled_to(states[-1])
     t, states, settled, distance = _cut(t, states, watch, system, scene, numerics)
@@ -68,13 +80,15 @@ def system_of(scene: Scene) -> System | MirrorSymmetric:
     return MirrorSymmetric(system) if scene.is_mirror_symmetric else system
 
 
-def _run(march: March, scene: Scene, watch: Watch, numerics: Numerics) -> State:
+def _run(march: March, scene: Scene, watch: Watch, numerics: Numerics, progress: Watcher | None) -> State:
     """Collect states (T, beads d + 1) until the end, or until the run has settled beyond doubt."""
     t_end = numerics.t_end
     last = np.inf if t_end is None else np.floor(t_end / numerics.interval * (1 + 1e-12))
     collected: list[State] = []
     for k, y in enumerate(march.states(march.system.to_state(scene.start()), numerics.interval)):
         collected.append(y)
+        if progress:
+            progress(k * numerics.interval, t_end)
         if k >= last or (t_end is None and k % _LOOK_EVERY == 0 and watch.is_over(k * numerics.interval, y)):
             break
     return np.array(collected)

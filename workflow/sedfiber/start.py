@@ -82,6 +82,8 @@ def read_shape(value: Any, n_beads: int, dim: int) -> Any:
         x = np.array(value, dtype=float)
     except (TypeError, ValueError):
         raise refused("shape", _shown(value), allowed) from None
+    if x.ndim == 2 and x.shape[1] in (2, 3) and len(x) != n_beads:
+        raise InputError(f"shape: a row count of {len(x)} is not allowed; give {n_beads} rows, one a bead (n_beads)")
     if x.shape not in ((n_beads, 2), (n_beads, 3)):
         raise refused("shape", _shown(value), allowed)
     if not np.isfinite(x).all():

@@ -1,5 +1,6 @@
 """The study's configuration, validated, and what it asks for in words of the command."""
 
+import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +11,7 @@ from sedfiber.errors import InputError
 from sedfiber.learning.settings import NodeSettings
 
 SPLITS = ("train", "A", "B")
+SCENE_NAME = r"\w[\w-]*"  # what rules know for a scene in the names of files
 _RUN_KEYS = ("B", "angle_index")
 
 
@@ -160,6 +162,18 @@ class Study:
     def _fiber(self) -> dict[str, Any]:
         scene = self.config["scene"]
         return {key: scene[key] for key in ("n_beads", "hydrodynamics")}
+
+
+def scene_names(folder: Path) -> list[str]:
+    """Names of the scenes in a folder; ends the program with one line where a file's name would make no rule's."""
+    paths = sorted(path for path in folder.glob("*") if path.suffix in (".yaml", ".yml"))
+    for path in paths:
+        if path.suffix == ".yml" or not re.fullmatch(SCENE_NAME, path.stem):
+            sys.exit(
+                f"scenes: {path.name!r} is not allowed; give it a name of letters, digits, _ and - "
+                "(not the first) that ends in .yaml"
+            )
+    return [path.stem for path in paths]
 
 
 def number_name(value: float) -> str:

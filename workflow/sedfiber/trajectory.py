@@ -17,6 +17,12 @@ class Trajectory:
     positions: History
     metadata: dict = field(default_factory=dict)
 
+    def __repr__(self) -> str:
+        kind, (samples, beads, _) = self.metadata.get("kind", "trajectory"), self.positions.shape
+        scene = self.metadata.get("scene", {})
+        values = "".join(f", {key}={scene[key]:g}" for key in ("B", "theta0") if key in scene)
+        return f"<Trajectory: {kind}{values}, {samples} samples to t = {self.t[-1]:g} a/U_s, {beads} beads>"
+
     @property
     def n_beads(self) -> int:
         """Number of beads N of one fiber."""

@@ -62,6 +62,20 @@ def vector(key: str, value: Any) -> tuple[float, float, float]:
     return x, y, z
 
 
+def velocity_gradient(key: str, value: Any) -> tuple:
+    """``value`` as three rows of three numbers, from two rows of two or three of three, or InputError."""
+    allowed = "two rows of two or three rows of three finite numbers, G in u = G·x, whose diagonal adds up to 0"
+    rows = plain(value)
+    square = isinstance(rows, list | tuple) and len(rows) in (2, 3)
+    if not square or any(not isinstance(row, list | tuple) or len(row) != len(rows) for row in rows):
+        raise refused(key, rows, allowed)
+    numbers = [[finite_number(key, entry, allowed) for entry in row] for row in rows]
+    if abs(sum(numbers[k][k] for k in range(len(rows)))) > 1e-12 * max(abs(e) for row in numbers for e in row):
+        raise refused(key, rows, f"{allowed} (the fluid is incompressible)")
+    padded = [(*row, 0.0)[:3] for row in numbers] + [(0.0, 0.0, 0.0)]
+    return tuple(padded[:3])
+
+
 def direction(key: str, value: Any) -> tuple[float, float, float]:
     """``value`` as a vector of length one, or InputError."""
     x, y, z = vector(key, value)

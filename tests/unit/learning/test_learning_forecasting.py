@@ -149,6 +149,12 @@ def test_a_sweep_takes_what_a_single_forecast_takes(forecaster):
         assert 0.0 < largest_distance(alone[..., :2], rough[low:high], LENGTH) < 1e-4
 
 
+def test_a_sweep_of_lists_that_do_not_match_is_refused(forecaster):
+    """With their lengths, before anything is computed."""
+    with pytest.raises(InputError, match="2, 1 and 2 values"):
+        forecaster.sweep([100.0, 400.0], [0.3], 0.5, [5, 5])
+
+
 def test_a_terminal_shape_comes_from_the_series_or_the_solver(forecaster, trained_model):
     """The same start within the series' range with and without it, and beyond it from the solver alone."""
     bare = Forecaster(load_compiled(trained_model))

@@ -1,21 +1,51 @@
-"""``sedfiber effects``: every effect that a scene may list, with parameters, units, defaults and source."""
+"""``sedfiber effects``: every key of a scene and every effect it may list, with parameters, units, defaults, source."""
 
 import argparse
 import json
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, Field, fields
 from typing import Any
 
-from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
+from sedfiber.numerics import DEFAULT_INTEGRATOR, Numerics
+from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC
+from sedfiber.scene import HYDRODYNAMICS, MOST_BEADS, SPACES, Scene
 from sedfiber.scene_part import Part
 from sedfiber.scene_parts import PARTS
 
-CHOICES = {
-    "space": (SPACES, "integrate x and y of planar motion, or x, y and z", "-"),
+# Keys of a scene that are no parts: what they mean, and the source.
+KEYS = {
+    "B": (
+        "elasto-gravitational number ℬ = 32 Δρ g ℓ³/(E a²); sets the modulus ℰ = 24 N³/ℬ without gravity too",
+        "Fox & Graham 2024",
+    ),
+    "theta0": ("inclination of the start to the x-axis in rad, from -π to π", "-"),
+    "n_beads": (f"beads of each fiber, an odd number from 1 to {MOST_BEADS}", "-"),
+    "space": (f"one of {', '.join(SPACES)}; integrate x and y of planar motion, or x, y and z", "-"),
     "hydrodynamics": (
-        HYDRODYNAMICS,
-        "none: each bead alone; Oseen: far field; RPY: the source's form; RPY-overlap: with that for r < 2a",
+        f"one of {', '.join(HYDRODYNAMICS)}; none: each bead alone; Oseen: far field; RPY: the source's form; "
+        "RPY-overlap: with that for r < 2a",
         "Stokes 1851; Oseen 1927; Rotne & Prager 1969; Yamakawa 1970",
     ),
+    "tilt": ("inclination in rad, from 0 to 0.1, that replaces a theta0 of exactly 0; 0 for exact symmetry", "-"),
+    "seed": ("a whole number from 0 up that draws the sign of the tilt, the disturbance and the noise", "-"),
+    "shape": (
+        "the start, which theta0 turns: straight, rest (a curved fiber's), {file: PATH} (.csv, .npy, .parquet of a "
+        "trajectory), or n_beads rows of 2 or 3 numbers in a",
+        "-",
+    ),
+    "depth": ("of the vessel in a, for the audit alone", "-"),
+}
+# Keys under numerics: unit and meaning.
+NUMERICS = {
+    "integrator": (
+        "-",
+        f"one of {', '.join((*INTEGRATORS, STOCHASTIC))}; none is {DEFAULT_INTEGRATOR}, with noise {STOCHASTIC}",
+    ),
+    "rtol": ("-", "relative tolerance of a step, from 1e-13 to 0.1"),
+    "atol": ("a", "absolute tolerance of a step, from 1e-13 to 0.1"),
+    "interval": ("a/U_s", "sample spacing"),
+    "max_time": ("a/U_s", "by when a run without t_end must have settled"),
+    "t_end": ("a/U_s", "end of the run; none is when the fiber has settled"),
+    "estimate_error": ("-", "repeat the run at tighter tolerances and record how far the two differ"),
 }
 
 
@@ -26,26 +56,38 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(args: argparse.Namespace) -> None:
     """Print the list."""
-    effects = [_choice(key) for key in CHOICES] + [_effect(part) for part in PARTS]
+    effects = [_key(key) for key in KEYS] + [_effect(part) for part in PARTS] + [_numerics()]
     if args.json:
         print(json.dumps(effects))
         return
     for effect in effects:
         print(f"{effect['key']}: {effect['summary']} (default: {effect['default']}; source: {effect['source']})")
         for one in effect["parameters"]:
-            print(f"    {one['name']:12s} {one['meaning']} [{one['unit']}] (default: {one['default']})")
+            print(f"    {one['name']:14s} {one['meaning']} [{one['unit']}] (default: {one['default']})")
 
 
-def _choice(key: str) -> dict[str, Any]:
-    """A key of the scene that is one word of a few."""
-    choices, summary, source = CHOICES[key]
-    default = Scene.__dataclass_fields__[key].default
+def _key(key: str) -> dict[str, Any]:
+    """A key of the scene that is no part."""
+    summary, source = KEYS[key]
+    default = _default(Scene.__dataclass_fields__[key])
+    return {"key": key, "summary": summary, "default": default, "source": source, "parameters": []}
+
+
+def _numerics() -> dict[str, Any]:
+    """How the scene is integrated."""
     return {
-        "key": key,
-        "summary": f"one of {', '.join(choices)}; {summary}",
-        "default": default,
-        "source": source,
-        "parameters": [],
+        "key": "numerics",
+        "summary": "how the scene is integrated",
+        "default": "in the scene",
+        "source": "-",
+        "parameters": [
+            {
+                "name": one.name,
+                **dict(zip(("unit", "meaning"), NUMERICS[one.name], strict=True)),
+                "default": _default(one),
+            }
+            for one in fields(Numerics)
+        ],
     }
 
 
@@ -58,15 +100,14 @@ def _effect(part: type[Part]) -> dict[str, Any]:
         "default": "in the scene" if default else "none",
         "source": part.source,
         "acts_in": part.acts_in,
-        "parameters": [
-            {"name": one.name, **one.metadata, "default": "required" if one.default is MISSING else _shown(one.default)}
-            for one in fields(part)
-        ],
+        "parameters": [{"name": one.name, **one.metadata, "default": _default(one)} for one in fields(part)],
     }
 
 
-def _shown(value: Any) -> Any:
+def _default(one: Field) -> Any:
     """A default as YAML would have it."""
-    if value is None:
+    if one.default is MISSING:
+        return "required"
+    if one.default is None:
         return "none"
-    return list(value) if isinstance(value, tuple) else value
+    return list(one.default) if isinstance(one.default, tuple) else one.default

@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sedfiber.atomic_file import require_folder, require_writable
+from sedfiber.atomic_file import require_folder, require_parquet
 from sedfiber.errors import InputError, SedfiberError
 from sedfiber.model_folder import SHIPPED
 from sedfiber.scene import Scene
@@ -58,7 +58,7 @@ def _run_one(args: argparse.Namespace, interval: float, t_end: float | None) -> 
         if getattr(args, key) is None:
             raise InputError(f"{key}: missing; give --{key}, or a table of starts")
     scene = Scene(args.B, args.theta0)
-    require_writable(args.output)
+    require_parquet(args.output)
     shape = None if args.shape is None else {"file": args.shape}
     trajectory = _model(args).settle(scene.B, scene.theta0, interval, t_end, shape)
     words = _doubts(trajectory, args.strict)
@@ -75,6 +75,8 @@ def _run_table(args: argparse.Namespace, interval: float, t_end: float | None) -
     for key in ("B", "theta0", "shape"):
         if getattr(args, key) is not None:
             raise InputError(f"{key}: given twice; leave out --{key}, it is a column of {args.starts.name}")
+    if args.output.suffix in (".parquet", ".csv"):
+        raise InputError(f"output: {str(args.output)!r} looks like a file; a table gets a file a row, give a folder")
     starts, model = read_starts(args.starts), _model(args)
     for start in with_progress(starts):
         with _at(start.place):

@@ -13,6 +13,7 @@ from sedfiber.trajectory_file import read_trajectory
 from sedfiber.validation import refused
 
 SUFFIXES = (".png", ".svg")
+_MOST_SHOWN = 2  # different fibers, whose ℬ and θ₀ fit into a title
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -33,10 +34,16 @@ def run(args: argparse.Namespace) -> None:
 
 
 def title_of(trajectory: Trajectory) -> str:
-    """What the file says of itself: how it was made, ℬ, θ₀ and the settling time."""
+    """What the file says of itself: how it was made, ℬ and θ₀ of each fiber, or how many, and the settling time."""
     facts, scene = trajectory.metadata, trajectory.metadata["scene"]
     made = "forecast" if facts.get("kind") == "forecast" else "simulated"
-    angle = f"θ₀ = {scene['theta0']:.4g} ({math.degrees(scene['theta0']):.3g}°)"
+    fibers = list(dict.fromkeys(_fiber_words(scene | fiber) for fiber in scene.get("fibers") or [{}]))
+    shown = "; ".join(fibers) if len(fibers) <= _MOST_SHOWN else f"{len(fibers)} different fibers"
     settled = trajectory.settling_time
     end = "" if settled is None else f", settled at t = {settled:.4g}"
-    return f"{made}: {B_SYMBOL} = {scene['B']:g}, {angle}{end}"
+    return f"{made}: {shown}{end}"
+
+
+def _fiber_words(values: dict) -> str:
+    """ℬ and θ₀ of one fiber."""
+    return f"{B_SYMBOL} = {values['B']:g}, θ₀ = {values['theta0']:.4g} ({math.degrees(values['theta0']):.3g}°)"

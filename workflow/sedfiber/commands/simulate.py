@@ -5,10 +5,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from sedfiber.angles import angle_index, angle_of
-from sedfiber.atomic_file import require_writable
+from sedfiber.atomic_file import require_parquet
 from sedfiber.errors import InputError
 from sedfiber.numerics import DEFAULT_INTEGRATOR, Numerics
 from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC
+from sedfiber.progress_bar import simulated_time
 from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
 from sedfiber.simulation import simulate
 from sedfiber.trajectory_file import write_trajectory
@@ -45,8 +46,9 @@ def run(args: argparse.Namespace) -> None:
     """Validate everything, integrate, write, and say what left-out effects would have done."""
     index = None if args.angle_index is None else angle_index(args.angle_index)
     scene, numerics = _requested(args, index)
-    require_writable(args.output)
-    trajectory = simulate(scene, numerics)
+    require_parquet(args.output)
+    with simulated_time() as progress:
+        trajectory = simulate(scene, numerics, progress=progress)
     labelled = replace(trajectory, metadata=trajectory.metadata | {"angle_index": index})
     write_trajectory(labelled, args.output)
     if trajectory.metadata["settled_to"] == "W":

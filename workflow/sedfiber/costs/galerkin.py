@@ -54,7 +54,7 @@ class PodGalerkin:
         jac[-2:, :-2] = by_modes[self._centre] * self._half_length
         return jac
 
-    def loss_of_definiteness(self, y: State) -> str | None:
+    def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
         """As of the system."""
         return self._system.loss_of_definiteness(self._system.to_state(self._shapes(y)))
 

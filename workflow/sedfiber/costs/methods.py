@@ -57,7 +57,7 @@ class WithoutJacobian:
         """Evaluations of the right-hand side, those for differences among them."""
         return self._system.rhs_count
 
-    def loss_of_definiteness(self, y: State) -> str | None:
+    def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
         """As of the system."""
         return self._system.loss_of_definiteness(y)
 

@@ -101,4 +101,4 @@ def _mobility(scene: Scene) -> Mobility:
     from sedfiber.physics.near_wall import NearWall
     from sedfiber.physics.wall import WallCorrection
 
-    return NearWall(free, WallCorrection(scene.wall.point, scene.wall.normal))
+    return NearWall(free, WallCorrection(scene.wall.point, scene.wall.normal), scene.contact is not None)

@@ -7,7 +7,7 @@ import numpy as np
 from sedfiber._typing import Array, History, State
 from sedfiber.errors import NumericalError
 from sedfiber.physics.bounds import strain_bound
-from sedfiber.physics.definiteness import CLOSE, REMEDY, least_eigenvalue
+from sedfiber.physics.definiteness import CLOSE, OVERLAP_REMEDY, least_eigenvalue
 from sedfiber.physics.gaps import closest_distance, smallest_gap
 from sedfiber.physics.system import System
 from sedfiber.scene import Scene
@@ -49,10 +49,8 @@ class Checks:
         if self.least_mobility is not None and not self.least_mobility > 0.0:
             raise NumericalError(
                 f"check failed: beads overlap until the mobility is not positive definite (smallest eigenvalue "
-                f"{self.least_mobility:.3g}); {REMEDY}"
+                f"{self.least_mobility:.3g}); {OVERLAP_REMEDY}"
             )
-        if self.wall_gap is not None:
-            self._bound("a bead's depth in the wall", -self.wall_gap, 0.1, "add contact, or end before it gets there")
         self._bound("energy imbalance", self.energy_imbalance, self.energy_bound, accuracy)
 
     @staticmethod

@@ -10,7 +10,8 @@ from sedfiber._typing import Positions
 from sedfiber.physics.protocols import Mobility
 
 CLOSE = 1.9  # a: where every two beads are further apart than this, RPY is positive definite
-REMEDY = "give hydrodynamics RPY-overlap, or add contact"
+DEEPEST = 0.1  # a: how deep in a wall a bead may be; from about 0.35 on it is pushed against the force on it
+OVERLAP_REMEDY = "give hydrodynamics RPY-overlap"
 
 
 def closest_pair(x: Positions) -> tuple[int, int, float]:
@@ -27,6 +28,19 @@ def least_eigenvalue(mobility: Mobility, x: Positions) -> float:
     """The smallest eigenvalue of ``M(x)``, in 1/(6πμa); −∞ where it is not a number."""
     matrix = mobility.matrix(np.ascontiguousarray(x))
     return float(np.linalg.eigvalsh(matrix)[0]) if np.isfinite(matrix).all() else -np.inf
+
+
+def wall_blame(mobility: Mobility, x: Positions) -> tuple[str, str] | None:
+    """Which bead is too deep in the wall of the mobility, and what to try; None without a wall, or above it."""
+    wall = getattr(mobility, "wall", None)  # only a mobility near one has it
+    if wall is None or not (heights := wall.heights(x)).min() < 1.0 - DEEPEST:
+        return None
+    lowest = int(heights.argmin())
+    remedy = "give a larger contact.strength" if mobility.has_contact else "add contact"
+    return (
+        f"bead {lowest} is {heights[lowest]:.3g} a from the wall, less than its radius,",
+        f"{remedy}, or a smaller t_end",
+    )
 
 
 def indefinite_words(mobility: Mobility, x: Positions) -> str | None:

@@ -70,7 +70,7 @@ class MirrorSymmetric:
         """Velocities of all beads relative to the centre bead's, (N, d)."""
         return self.system.relative_velocities(self._whole_states(y))
 
-    def loss_of_definiteness(self, y: State) -> str | None:
+    def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
         """As of the whole fiber."""
         return self.system.loss_of_definiteness(self._whole_states(y))
 

@@ -9,12 +9,15 @@ from sedfiber.physics.wall import WallCorrection
 
 
 class NearWall:
-    """``M(x) = M_RPY(x) + ΔM(x)`` (Swan & Brady 2007); depends on the place, so needs laboratory positions."""
+    """``M(x) = M_RPY(x) + ΔM(x)`` (Swan & Brady 2007); depends on the place, so needs laboratory positions.
+
+    ``has_contact`` says whether a force keeps beads off the wall; it is for the advice where one got into it.
+    """
 
     placed = True
 
-    def __init__(self, free: PairMobility, wall: WallCorrection):
-        self.free, self.wall = free, wall
+    def __init__(self, free: PairMobility, wall: WallCorrection, has_contact: bool = False):
+        self.free, self.wall, self.has_contact = free, wall, has_contact
 
     def velocity(self, x: Positions, force: Positions, u: Positions) -> None:
         """Write ``M(x) F`` to ``u``, shape (N, 3)."""

@@ -65,5 +65,5 @@ class Equations(Protocol):
     def rhs(self, t: float, y: State) -> State: ...
     def jacobian(self, t: float, y: State) -> Matrix: ...
 
-    def loss_of_definiteness(self, y: State) -> str | None:
-        """Why no step may succeed at a state, where the mobility is to blame."""
+    def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
+        """Why no step may succeed at a state, and what to try, where the mobility is to blame."""

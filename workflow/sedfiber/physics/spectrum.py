@@ -83,8 +83,8 @@ def spectrum(scene: Scene, positions: Positions) -> Spectrum:
 
 
 def round_off(scene: Scene) -> float:
-    """What the rates of a scene carry of it, in U_s/a: the stiffest rate is of the size of the modulus."""
-    return float(np.finfo(float).eps * scene.modulus)
+    """What the rates of a scene carry of it, in U_s/a: the stiffest rate is of the size of the stiffest modulus."""
+    return float(np.finfo(float).eps * scene.stiffening * scene.modulus)
 
 
 def leaving_rate(scene: Scene, positions: Positions, symmetric: bool, flat: bool) -> float:

@@ -82,7 +82,7 @@ def terminal_state(scene: Scene, branch: str = "U") -> SteadyState:
 def require_terminal_shape(scene: Scene) -> None:
     """Raises InputError for a scene without one."""
     if not scene.has_terminal_shape:
-        raise InputError("steady: this scene has no terminal shape; it needs gravity, a fiber of 3 beads or more, RPY")
+        raise InputError("this scene has no terminal shape; it needs gravity, a fiber of 3 beads or more, RPY")
 
 
 def state_of(point: CurvePoint, scene: Scene, branch: str) -> SteadyState:
@@ -105,7 +105,10 @@ def straight_point(scene: Scene, curve: SteadyCurve) -> CurvePoint:
     B = min(scene.B, NEARLY_STRAIGHT)
     point = curve.nearest(B, planar(scene).start())
     if point is None:
-        raise NumericalError(f"steady: no nearly straight state found at B={B:g} with {scene.n_beads} beads")
+        raise NumericalError(
+            f"no terminal shape found for B={scene.B:g}, {scene.n_beads} beads and "
+            f"stretching.factor {scene.stretching.factor:g}: no nearly straight one at B={B:g} to follow from"
+        )
     return point
 
 
@@ -122,7 +125,7 @@ def w_point(scene: Scene, curve: SteadyCurve) -> CurvePoint:
         if point is not None and not _is_U(point, scene):
             return point
     raise NumericalError(
-        f"steady: no W found with {scene.n_beads} beads; from B={towards:g} to {towards * _FALLS[-1]:g} "
+        f"no W found with {scene.n_beads} beads; from B={towards:g} to {towards * _FALLS[-1]:g} "
         "symmetric fibers settle onto the U, or collapse"
     )
 
@@ -163,8 +166,7 @@ def _reach(curve: SteadyCurve, seed: CurvePoint, B: float, branch: str) -> Curve
             point = curve.fold(last, point)
             if side * (point.unknowns[-1] - goal) < 0.0:
                 raise NumericalError(
-                    f"steady: there is no {branch} at B={B:g}; with {curve.n_beads} beads "
-                    f"it ends in a fold at B={point.B:.6g}"
+                    f"there is no {branch} at B={B:g}; with {curve.n_beads} beads it ends in a fold at B={point.B:.6g}"
                 )
         if side * (point.unknowns[-1] - goal) >= 0.0:
             break

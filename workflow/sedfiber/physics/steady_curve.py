@@ -77,7 +77,7 @@ class SteadyCurve:
             if ahead is None or self._strayed(point, step, ahead):
                 step /= 2.0
                 if step < _LAST_STEP:
-                    raise NumericalError(f"steady: the branch was lost near B={point.B:.6g}")
+                    raise NumericalError(f"the branch of steady shapes was lost near B={point.B:.6g}")
                 continue
             yield ahead
             point, step = ahead, min(_LONGEST_STEP, 1.5 * step)
@@ -102,7 +102,7 @@ class SteadyCurve:
             near = self.crossing(point, ahead, lambda p: p.unknowns[-1] - goal, _NEAR)
         found = self.nearest(B, near.positions)
         if found is None:
-            raise NumericalError(f"steady: the branch was lost near B={B:.6g}")
+            raise NumericalError(f"the branch of steady shapes was lost near B={B:.6g}")
         return found
 
     def fold(self, point: CurvePoint, ahead: CurvePoint) -> CurvePoint:
@@ -117,7 +117,7 @@ class SteadyCurve:
         bend = (1.0 - u) * (slopes[0] - chord) - u * (slopes[1] - chord)
         found = self._correct(point.unknowns + u * chord + u * (1.0 - u) * bend, border, _MAX_NEWTON)
         if found is None:
-            raise NumericalError(f"steady: the branch was lost near B={point.B:.6g}")
+            raise NumericalError(f"the branch of steady shapes was lost near B={point.B:.6g}")
         return found
 
     def _correct(self, predicted: Array, border: Array, most: int) -> CurvePoint | None:
@@ -198,5 +198,6 @@ class SteadyCurve:
         return assemble(replace(self._scene, B=B))
 
     def _noise(self, unknowns: Array) -> float:
-        """Round-off of the balance: coordinates of size N carry eps·N, times the modulus."""
-        return float(np.finfo(float).eps * self._scene.n_beads * self._scene.modulus_at(np.exp(unknowns[-1])))
+        """Round-off of the balance: coordinates of size N carry eps·N, times the stiffest modulus."""
+        stiffest = self._scene.stiffening * self._scene.modulus_at(np.exp(unknowns[-1]))
+        return float(np.finfo(float).eps * self._scene.n_beads * stiffest)

@@ -13,7 +13,7 @@ import numpy as np
 
 from sedfiber._typing import Band, History, Matrix, Positions, State
 from sedfiber.physics import frame
-from sedfiber.physics.definiteness import indefinite_words
+from sedfiber.physics.definiteness import OVERLAP_REMEDY, indefinite_words, wall_blame
 from sedfiber.physics.protocols import ConservativeForce, Flow, Force, Mobility
 
 
@@ -117,9 +117,13 @@ class System:
         """Energy of all conservative forces at laboratory positions, in units of ``6πμaU_s · a``."""
         return sum(part.energy(x) for part in self.forces)
 
-    def loss_of_definiteness(self, y: State) -> str | None:
-        """What is wrong with the mobility at a state, naming the closest beads; None where it is positive definite."""
-        return indefinite_words(self.mobility, self.to_positions(y)[:, : self.shape[1]])
+    def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
+        """Why the mobility has lost its meaning at a state, naming beads, and what to try; None where it has not."""
+        x = self.to_positions(y)[:, : self.shape[1]]
+        if blame := wall_blame(self.mobility, x):
+            return blame
+        words = indefinite_words(self.mobility, x)
+        return None if words is None else (words, OVERLAP_REMEDY)
 
     def _open(self, y: State) -> tuple[Positions, Positions, Positions, Positions, Positions]:
         """Of a state: positions relative to the centre bead, in the laboratory (the same array if no

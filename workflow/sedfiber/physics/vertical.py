@@ -38,7 +38,7 @@ def vertical_shape(scene: Scene) -> Positions:
         x[keep, 1] -= step
         if np.abs(u - u[centre]).max() < TOLERANCE + noise and np.abs(step).max() < _LAST_MOVE:
             return x
-    raise NumericalError(f"steady: no vertical fall found at B={scene.B:g}; try a smaller B")
+    raise NumericalError(f"no vertical fall found at B={scene.B:g}; try a smaller B")
 
 
 def vertical_state(scene: Scene) -> SteadyState:

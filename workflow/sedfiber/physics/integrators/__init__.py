@@ -1,5 +1,6 @@
 """Integrators by name; each yields the state at every multiple of a sampling interval."""
 
+from sedfiber.physics.integrators.above_wall import AboveWall
 from sedfiber.physics.integrators.base import Counters, March, Tolerances
 from sedfiber.physics.integrators.dopri5 import Dopri5
 from sedfiber.physics.integrators.implicit import BDFMarch, RadauMarch
@@ -15,4 +16,4 @@ INTEGRATORS: dict[str, type[March]] = {
 }
 STOCHASTIC = StochasticMidpoint.name
 
-__all__ = ["INTEGRATORS", "STOCHASTIC", "Counters", "March", "StochasticMidpoint", "Tolerances"]
+__all__ = ["INTEGRATORS", "STOCHASTIC", "AboveWall", "Counters", "March", "StochasticMidpoint", "Tolerances"]

@@ -9,7 +9,6 @@ import numpy as np
 
 from sedfiber._typing import State
 from sedfiber.errors import NumericalError
-from sedfiber.physics.definiteness import REMEDY
 from sedfiber.physics.protocols import Equations
 
 MOST_STEPS = 20_000  # in one sample
@@ -58,9 +57,8 @@ class March(ABC):
         return NumericalError(f"{self.name}: {why} at t = {t:.6g} a/U_s; {advice}")
 
     def stuck(self, t: float, y: State, why: str, advice: str) -> NumericalError:
-        """The error for steps that fail at state ``y``: where beads collapsed onto each other, that is why."""
-        collapse = self.system.loss_of_definiteness(y)
-        return self.failed(t, collapse, REMEDY) if collapse else self.failed(t, why, advice)
+        """The error for steps that fail at state ``y``: where beads collapsed, or are in a wall, that is why."""
+        return self.failed(t, *(self.system.loss_of_definiteness(y) or (why, advice)))
 
     def require_finite(self, t: float, y: State) -> State:
         """``y`` itself, or NumericalError when a coordinate is NaN or infinite."""

@@ -70,15 +70,15 @@ class StochasticMidpoint(March):
 
     def _random_force(self, x: Positions, t: float) -> Positions:
         """``√(2kT/Δt) L⁻ᵀ W``, shape (N, d)."""
-        lower = self._root(self.system.mobility.matrix(x), t)
+        lower = self._root(x, t)
         normal = self._random.standard_normal(x.size)
         scale = (2.0 * self._temperature / self._step) ** 0.5
         return scale * solve_triangular(lower, normal, lower=True, trans="T").reshape(x.shape)
 
-    def _root(self, mobility: Matrix, t: float) -> Matrix:
-        """L in ``L Lᵀ = M``; NumericalError where M is not positive definite."""
+    def _root(self, x: Positions, t: float) -> Matrix:
+        """L in ``L Lᵀ = M(x)``; NumericalError where M is not positive definite."""
         try:
-            return cho_factor(mobility, lower=True)[0]
+            return cho_factor(self.system.mobility.matrix(x), lower=True)[0]
         except (LinAlgError, ValueError):
-            why = "the mobility is not positive definite: beads overlap, or touch a wall,"
-            raise self.failed(t, why, "give hydrodynamics RPY-overlap, contact, or a smaller noise.step") from None
+            why = "the mobility is not positive definite"
+            raise self.stuck(t, self.system.to_state(x), why, "give a smaller noise.step") from None
