@@ -87,7 +87,11 @@ class Reader:
     def run(self, words: list[str]) -> subprocess.CompletedProcess:
         """Like a terminal: both outputs in one, this environment's programs first."""
         path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-        how = {"cwd": self.folder, "env": clean_environment() | {"PATH": path}, "stdin": subprocess.DEVNULL}
+        how = {
+            "cwd": self.folder,
+            "env": clean_environment() | {"PATH": path, "PIP_DRY_RUN": "1"},
+            "stdin": subprocess.DEVNULL,
+        }
         both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
         return subprocess.run(words, **how, **both, text=True, timeout=300, check=False)
 

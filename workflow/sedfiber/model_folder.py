@@ -22,9 +22,10 @@ def read_model_folder(folder: str | Path, kind: str) -> tuple[dict[str, Any], by
         card = json.loads((Path(folder) / CARD).read_text(encoding="utf-8"))
         weights = (Path(folder) / WEIGHTS).read_bytes()
     except OSError as error:
-        raise InputError(f"{folder} holds no readable model: {Path(error.filename).name}: {error.strerror}") from error
+        name = Path(error.filename).name
+        raise InputError(f"model: {folder} holds no readable model ({name}: {error.strerror})") from error
     except ValueError as error:
-        raise InputError(f"{folder} holds no readable model: {CARD}: {error}") from error
+        raise InputError(f"model: {folder} holds no readable model ({CARD}: {error})") from error
     if not isinstance(card, dict) or card.get("kind") != kind:
         raise InputError(f"{folder} does not hold a model of the kind {kind!r}")
     if card.get("sha256") != checksum(weights):

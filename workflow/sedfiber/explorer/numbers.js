@@ -18,7 +18,7 @@ function showNumbers(scene) {
     speed: `${Math.hypot(...forecast.velocity).toFixed(3)} Uₛ`,
     "end-to-end": `${endToEnd(forecast.shape).toFixed(3)} L`,
     "largest-error": errors ? scientific(Math.max(...errors.total)) : "–",
-    "error-unit": errors ? "10⁻⁴ is 1 % of the length" : "nothing to compare with",
+    "error-unit": errors ? "10⁻⁴ is 1 % of the length, or of the way" : "nothing to compare with",
     milliseconds: `${scene.milliseconds.toFixed(1)} ms`,
     evaluations: `${forecast.path.evaluations} evaluations of dh/dt`,
     "shown-pair": `ℬ = ${digits(scene.B)}, θ₀ = ${digits(scene.degrees)}°`,
