@@ -12,7 +12,7 @@ reproduce: environment
 	PATH="$(CURDIR)/$(BIN):$$PATH" snakemake -j2
 
 test: environment
-	PATH="$(CURDIR)/$(BIN):$$PATH" pytest -n 2 --dist loadgroup
+	PATH="$(CURDIR)/$(BIN):$$PATH" pytest -n 2 --dist loadscope
 
 publish: reproduce
 	$(BIN)/sedfiber publish_results

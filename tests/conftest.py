@@ -12,6 +12,31 @@ from hypothesis import settings  # noqa: E402
 settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=25, database=None)
 settings.load_profile("repeatable")
 
+# Test files that share what is slow to make: a group stays on one worker. They stand here and not as marks of
+# pytest-xdist, which are without effect from pytest 9.2 on; the largest group is begun first.
+GROUPS = {
+    "test_run.py": "finished study",
+    "test_graph.py": "finished study",
+    "test_report.py": "finished study",
+    "test_document_commands.py": "finished study",
+    "test_scenes.py": "scenes",
+    "test_explorer.py": "explorer",
+    "test_installed.py": "installed",
+}
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config, log):
+    """Each test by itself to the next free worker, except those of a group."""
+    from xdist.scheduler import LoadScopeScheduling
+
+    class ByGroup(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            file = nodeid.split("::")[0].rsplit("/", 1)[-1]
+            return GROUPS.get(file, nodeid)
+
+    return ByGroup(config, log)
+
 
 @pytest.fixture(scope="session")
 def trained_model(tmp_path_factory):

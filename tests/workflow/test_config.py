@@ -14,7 +14,6 @@ from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, Source
 from sedfiber.source_files import PACKAGE, command_sources, module_sources
 
 REPOSITORY = Path(__file__).parents[2]
-pytestmark = pytest.mark.xdist_group("workflow")
 
 
 @pytest.mark.slow

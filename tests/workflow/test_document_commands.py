@@ -20,7 +20,7 @@ from document_blocks import FENCED, KINDS, PAGES, PROGRAMS, SCRIPTS, Step, compl
 from numpy.testing import assert_allclose
 from workflow_helpers import REPOSITORY, clean_environment
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.slow
 
 STEPS = [step for page in PAGES for step in steps_of(page.name, page.read_text(encoding="utf-8"))]
 # Planned here with --dry-run instead of run: why, and what runs it.

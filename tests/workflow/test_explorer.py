@@ -25,7 +25,7 @@ from sedfiber.learning.settings import AutoencoderSettings
 from sedfiber.terminal_curve import FILE as CURVE
 from sedfiber.terminal_curve import TerminalCurve, write_terminal_curve
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("explorer")]
+pytestmark = pytest.mark.slow
 
 CLOSE = 1e-5  # of L; the page promises 1e-4
 SIMULATED, ELSEWHERE = ("200", "37.5"), ("250", "20")  # ℬ and θ₀ in degrees

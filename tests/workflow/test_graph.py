@@ -2,7 +2,7 @@
 
 import pytest
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.slow
 
 AFTER_EVERYTHING = {"tabulate_timings", "write_manifest", "show_table", "show_manifest"}
 ERRORS = {"tabulate_forecast_errors", "tabulate_lags"}

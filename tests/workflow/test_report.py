@@ -8,7 +8,7 @@ import yaml
 from browser import opened_page
 from workflow_helpers import REPOSITORY
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.slow
 
 FIGURES = yaml.safe_load((REPOSITORY / "workflow/report/figures.yaml").read_text(encoding="utf-8"))
 IN_ALL = {name for name, about in FIGURES.items() if about["category"][0] in "123"}

@@ -19,7 +19,7 @@ import sedfiber
 from sedfiber.differences import largest_distance
 from sedfiber.shipped_model import SETS, copy_model
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.slow
 
 
 def test_tables_have_a_row_for_everything(finished):

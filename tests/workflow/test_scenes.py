@@ -9,7 +9,7 @@ import pytest
 
 import sedfiber
 
-pytestmark = [pytest.mark.slow, pytest.mark.xdist_group("workflow")]
+pytestmark = pytest.mark.slow
 
 EXAMPLES = {
     "study", "volume_disturbed", "shear_tumbling", "extension_buckling", "wall_approach",
