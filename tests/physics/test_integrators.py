@@ -109,6 +109,42 @@ def test_what_cannot_be_integrated_is_refused(motion, integrator):
     assert "\n" not in str(error.value)
 
 
+class Interrupted(Oscillator):
+    """Raises once ``t`` is above 1: an effect of the user's that fails, or Ctrl-C."""
+
+    name = "interrupted"
+
+    def f(self, t, y):
+        if t > 1:
+            raise KeyboardInterrupt
+        return super().f(t, y)
+
+
+@each_integrator
+def test_an_exception_comes_out_as_it_was_raised(integrator):
+    """Once, also through a solver's compiled code."""
+    march = INTEGRATORS[integrator](Interrupted(), Tolerances(1e-6, 1e-6))
+    with pytest.raises(KeyboardInterrupt) as error:
+        list(islice(march.states(Interrupted.start, INTERVAL), 10))
+    assert error.value.__cause__ is None
+
+
+class Singular(StiffTracking):
+    """Its Jacobian is NaN from the start, as where two beads lie in one place."""
+
+    name = "singular"
+
+    def df(self, t, y):
+        return np.full((y.size, y.size), np.nan)
+
+
+@pytest.mark.parametrize("integrator", ["Radau", "BDF"])
+def test_a_jacobian_that_is_not_finite_is_refused(integrator):
+    """By name, where SciPy's factorisation would say that an array must not contain NaNs."""
+    with pytest.raises(NumericalError, match=f"^{integrator}: the Jacobian is not finite at t = 0 a/U_s; try"):
+        march_error(Singular(), integrator, 1e-6)
+
+
 def test_dopri5_gives_up_on_a_stiff_fiber_and_says_so():
     """The source's integrator at ℬ = 100 with samples 5 apart: more than its 1000 steps in one call."""
     with pytest.raises(NumericalError, match=r"dopri5: .*stiff.*implicit"):

@@ -56,6 +56,18 @@ def test_jacobian_taylor(space, hydrodynamics, chain, seed):
 
 
 @each_scene
+@pytest.mark.parametrize("far", [0.0, 1e18], ids=["two beads in one place", "all so far apart that digits are lost"])
+def test_beads_in_one_place_give_numbers_that_are_not_finite(space, hydrodynamics, far):
+    """And no exception, which would pass through a solver's own code: the solver rejects the step."""
+    system = system_of(space, hydrodynamics)
+    y = system.to_state(bent_chain(3, dim=system.shape[1]))
+    d = system.shape[1]
+    y[:d] = y[d : 2 * d]  # beads 0 and 1
+    assert not np.isfinite(system.rhs(0.0, y + far)).all()
+    assert not np.isfinite(system.jacobian(0.0, y + far)).all()
+
+
+@each_scene
 def test_jacobian_entry_by_entry(space, hydrodynamics):
     """Each column against a central difference, the work's row and column included."""
     system = system_of(space, hydrodynamics)

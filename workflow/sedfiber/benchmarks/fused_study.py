@@ -6,14 +6,14 @@ scene would need.  The equations are those of ``physics``; nothing is shared wit
 """
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Matrix, State
+from sedfiber.physics.kernel import kernel
 
 FAST = {"reassoc", "contract", "nsz", "arcp"}
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def rhs(y: State, modulus: float) -> State:
     """``dy/dt`` (2N + 1,) of the study's scene; see ``physics.system`` for the state."""
     n = (y.size - 1) // 2
@@ -49,7 +49,7 @@ def rhs(y: State, modulus: float) -> State:
     return out
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def jacobian(y: State, modulus: float) -> Matrix:
     """``∂(dy/dt)/∂y`` (2N + 1, 2N + 1) of the study's scene."""
     n = (y.size - 1) // 2
@@ -127,7 +127,7 @@ def jacobian(y: State, modulus: float) -> Matrix:
     return out
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _positions_and_weight(y, x, f):
     n = x.shape[1]
     for i in range(n):
@@ -135,7 +135,7 @@ def _positions_and_weight(y, x, f):
     x[0, n // 2], x[1, n // 2] = 0.0, 0.0
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _add_elastic_force(x, modulus, f):
     """Springs and bending; the unit vector of one bond is kept for the next."""
     tx = ty = length = 0.0
@@ -165,7 +165,7 @@ def _add_elastic_force(x, modulus, f):
         tx, ty, length = px, py, r
 
 
-@njit(cache=True)
+@kernel()
 def _elastic_band(x, modulus):
     """``∂F/∂x`` of springs and bending, [offset, xx/xy/yx/yy, bead], shape (5, 4, N)."""
     n = x.shape[1]
@@ -213,7 +213,7 @@ def _elastic_band(x, modulus):
     return band
 
 
-@njit(cache=True)
+@kernel()
 def _to_centre_frame(out, n):
     c = 2 * (n // 2)
     for r in range(2 * n + 1):

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Band, Positions
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.protocols import TO_THE_LAST
 
 
@@ -41,7 +41,7 @@ class Bending:
         return _energy(x, self.modulus / 8.0, self.first, self.last)
 
 
-@njit(cache=True)
+@kernel()
 def _directions(x, m, t1, t2):
     """Unit bond vectors before and after bead ``m``; returns both lengths and the cosine."""
     l1 = 0.0
@@ -60,7 +60,7 @@ def _directions(x, m, t1, t2):
     return l1, l2, c
 
 
-@njit(cache=True)
+@kernel()
 def _energy(x, kappa, first, last):
     t1, t2 = np.empty(x.shape[1]), np.empty(x.shape[1])
     total = 0.0
@@ -72,7 +72,7 @@ def _energy(x, kappa, first, last):
     return kappa * total
 
 
-@njit(cache=True)
+@kernel()
 def _add_force(x, kappa, first, last, force):
     spatial = x.shape[1] == 3
     end = min(last, x.shape[0]) - 1
@@ -106,7 +106,7 @@ def _add_force(x, kappa, first, last, force):
             force[end, 2] += nz
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(x, kappa, first, last, band):
     d = x.shape[1]
     t1, t2 = np.empty(d), np.empty(d)
@@ -125,7 +125,7 @@ def _add_jacobian(x, kappa, first, last, band):
                 spread_on_beads(h11, h12, h21, h22, m, k, w, band)
 
 
-@njit(cache=True)
+@kernel()
 def spread_on_beads(h11, h12, h21, h22, m, k, w, band):
     """Add entry (k, w) of second derivatives by the bonds before and after bead ``m`` to the three beads' blocks."""
     band[2, k, w, m - 1] += h11

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Matrix, Positions
+from sedfiber.physics.kernel import kernel
 
 
 @dataclass(frozen=True)
@@ -45,13 +45,13 @@ class Contact:
         return _energy(x, self.strength, self.reach, self.fiber_beads)
 
 
-@njit(cache=True)
+@kernel()
 def _first_partner(i, fiber_beads):
     """First of the later beads that bead ``i`` can touch: the one after next, but next to a fiber's end."""
     return i + 1 if (i + 1) % fiber_beads == 0 else i + 2
 
 
-@njit(cache=True)
+@kernel()
 def _square(x, i, j):
     """``|x_i − x_j|²``."""
     dx, dy = x[i, 0] - x[j, 0], x[i, 1] - x[j, 1]
@@ -59,7 +59,7 @@ def _square(x, i, j):
     return dx * dx + dy * dy + dz * dz
 
 
-@njit(cache=True)
+@kernel()
 def _energy(x, strength, reach, fiber_beads):
     width = reach * reach - 4.0
     total = 0.0
@@ -71,7 +71,7 @@ def _energy(x, strength, reach, fiber_beads):
     return strength / 20.0 * total
 
 
-@njit(cache=True)
+@kernel()
 def _add_force(x, strength, reach, fiber_beads, force):
     reach2 = reach * reach
     for i in range(x.shape[0]):
@@ -85,7 +85,7 @@ def _add_force(x, strength, reach, fiber_beads, force):
                     force[j, k] -= along
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(x, strength, reach, fiber_beads, jac):
     n, d = x.shape
     reach2 = reach * reach

@@ -19,10 +19,10 @@ do not.  Left out: the image of the rotlets in a wall, and the couples that the 
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Matrix, Positions
 from sedfiber.physics.flow_couple import COUPLE, StrainingFlow, bonded, direction, share, strained
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_forms import FAST
 
 
@@ -49,7 +49,7 @@ class CoupleFlow:
         _add_jacobian(x, strain, slope, self.fiber_beads, jac)
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def _coefficients(r2):
     """``c`` and ``c'/r`` at a squared distance; at zero, for the bead itself, anything finite."""
     near = r2 < 4.0
@@ -61,7 +61,7 @@ def _coefficients(r2):
     return c, e
 
 
-@njit(cache=True)
+@kernel()
 def _in_space(x, strain):
     """Positions with three coordinates and the strain that acts: in the plane only its upper left 2×2."""
     n, d = x.shape
@@ -71,14 +71,14 @@ def _in_space(x, strain):
     return space, acting
 
 
-@njit(cache=True)
+@kernel()
 def _cross(a, b, out):
     out[0] = a[1] * b[2] - a[2] * b[1]
     out[1] = a[2] * b[0] - a[0] * b[2]
     out[2] = a[0] * b[1] - a[1] * b[0]
 
 
-@njit(cache=True)
+@kernel()
 def _torques(x, strain, slope, beads):
     """``T`` of the beads as contiguous rows, shape (3, N), from positions (N, 3)."""
     n = x.shape[0]
@@ -96,7 +96,7 @@ def _torques(x, strain, slope, beads):
     return rows
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def _add_velocity(x, strain, slope, beads, u):
     n, d = x.shape
     space, acting = _in_space(x, strain)
@@ -118,7 +118,7 @@ def _add_velocity(x, strain, slope, beads, u):
             u[i, 2] += uz
 
 
-@njit(cache=True)
+@kernel()
 def _torque_slopes(x, strain, slope, beads):
     """``∂T_k/∂x_w`` of the bond from bead ``j``, by that bead and by the next: shape (2, w, k, N)."""
     n = x.shape[0]
@@ -149,7 +149,7 @@ def _torque_slopes(x, strain, slope, beads):
     return slopes
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def _add_jacobian(x, strain, slope, beads, jac):
     n, d = x.shape
     space, acting = _in_space(x, strain)
@@ -179,7 +179,7 @@ def _add_jacobian(x, strain, slope, beads, jac):
                     jac[i * d + k, j * d + w] += g[3 * k + w, j]
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def _pair_row(at, torque, i, g, arms):
     """Bead i with every bead: ``c r`` into ``arms`` and the derivatives at fixed torques into ``g``."""
     n = at.shape[1]

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Band, Positions
 from sedfiber.physics.bending import spread_on_beads
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.protocols import TO_THE_LAST
 
 # No bend is resolved below this sine: bond directions are rounded to 1e-16, so what is left of
@@ -65,7 +65,7 @@ def rest_arc(n_beads: int, curvature: float, dim: int) -> Positions:
     return x - x[n_beads // 2]
 
 
-@njit(cache=True)
+@kernel()
 def _corner(x, m, cos_rest, sin_rest, t, n, g):
     """Directions, normals and ``sin φ`` times these (2, d) of the bonds before and after bead ``m``.
 
@@ -106,13 +106,13 @@ def _corner(x, m, cos_rest, sin_rest, t, n, g):
     return l1, l2, c, s, ratio
 
 
-@njit(cache=True)
+@kernel()
 def _rest(angle, d):
     angle = abs(angle) if d == 3 else angle
     return np.cos(angle), np.sin(angle)
 
 
-@njit(cache=True)
+@kernel()
 def _energy(x, kappa, angle, first, last):
     d = x.shape[1]
     t, n, g = np.empty((2, d)), np.empty((2, d)), np.empty((2, d))
@@ -125,7 +125,7 @@ def _energy(x, kappa, angle, first, last):
     return kappa * total
 
 
-@njit(cache=True)
+@kernel()
 def _add_force(x, kappa, angle, first, last, force):
     d = x.shape[1]
     t, n, g = np.empty((2, d)), np.empty((2, d)), np.empty((2, d))
@@ -139,7 +139,7 @@ def _add_force(x, kappa, angle, first, last, force):
             force[m + 1, k] += g2
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(x, kappa, angle, first, last, band):
     d = x.shape[1]
     t, n, g = np.empty((2, d)), np.empty((2, d)), np.empty((2, d))

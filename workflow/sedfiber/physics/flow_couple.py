@@ -29,9 +29,9 @@ from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Array, Band, Positions
+from sedfiber.physics.kernel import kernel
 
 COUPLE = 4.0 / 3.0  # on a sphere held in fluid that turns at unit rate: 8πμa³ in 6πμa²U_s
 
@@ -72,19 +72,19 @@ class FlowCouple:
         _add_jacobian(x, strain, slope, self.fiber_beads, jac)
 
 
-@njit(cache=True)
+@kernel()
 def bonded(j, beads):
     """Whether bead ``j`` and the next one belong to the same fiber of ``beads``."""
     return j % beads != beads - 1
 
 
-@njit(cache=True)
+@kernel()
 def share(j, beads):
     """What each of its bonds carries of the couple of bead ``j``: half, or all at an end of its fiber."""
     return 1.0 if j % beads == 0 or not bonded(j, beads) else 0.5
 
 
-@njit(cache=True)
+@kernel()
 def direction(x, j, t):
     """Unit vector ``t`` of the bond from bead ``j``; returns its length."""
     r2 = 0.0
@@ -97,7 +97,7 @@ def direction(x, j, t):
     return r
 
 
-@njit(cache=True)
+@kernel()
 def strained(strain, sy, t, p):
     """``p = E t`` where ``E_xy`` is larger by ``sy`` than in ``strain``; returns ``t·p``."""
     q = 0.0
@@ -112,7 +112,7 @@ def strained(strain, sy, t, p):
     return q
 
 
-@njit(cache=True)
+@kernel()
 def _add_force(x, strain, slope, beads, force):
     n, d = x.shape
     t, p = np.empty(d), np.empty(d)
@@ -128,7 +128,7 @@ def _add_force(x, strain, slope, beads, force):
             force[j, k] -= f
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(x, strain, slope, beads, band):
     n, d = x.shape
     t, p, unit_p = np.empty(d), np.empty(d), np.empty(d)

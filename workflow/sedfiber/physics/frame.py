@@ -1,12 +1,12 @@
 """Between positions and the state that is integrated: compiled, since every right-hand side needs them."""
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Array, Band, Matrix, Positions, State
+from sedfiber.physics.kernel import kernel
 
 
-@njit(cache=True)
+@kernel()
 def open_state(y: State, x: Positions, force: Positions) -> None:
     """From a state to positions relative to the centre bead, ``x`` (N, d); no force yet on any bead."""
     n, d = x.shape
@@ -18,7 +18,7 @@ def open_state(y: State, x: Positions, force: Positions) -> None:
         x[n // 2, k] = 0.0
 
 
-@njit(cache=True)
+@kernel()
 def rates(u: Positions, force: Positions, out: State) -> None:
     """``dy/dt`` from bead velocities and the forces whose work is counted, into ``out`` (N d + 1,)."""
     n, d = u.shape
@@ -32,7 +32,7 @@ def rates(u: Positions, force: Positions, out: State) -> None:
     out[n * d] = power
 
 
-@njit(cache=True)
+@kernel()
 def add_work_row(u: Positions, force: Positions, band: Band, jac: Matrix) -> None:
     """Add ``∂(F·u)/∂x = uᵀ ∂F/∂x + Fᵀ ∂u/∂x`` to the last row of ``jac`` (N d + 1, N d + 1)."""
     n, d = u.shape
@@ -50,7 +50,7 @@ def add_work_row(u: Positions, force: Positions, band: Band, jac: Matrix) -> Non
                     last[j * d + w] += u[j + o - reach, v] * band[o, v, w, j]
 
 
-@njit(cache=True)
+@kernel()
 def to_centre_frame(jac: Matrix, shape: tuple, placed: bool) -> None:
     """From ``∂(u, Ẇ)/∂x`` to ``∂(dy/dt)/∂y``, in place, (N d + 1, N d + 1).
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Band, Matrix, Positions
+from sedfiber.physics.kernel import kernel
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class FreeDraining:
         add_band(band, jac)
 
 
-@njit(cache=True)
+@kernel()
 def add_band(band: Band, jac: Matrix) -> None:
     """Add a band to a matrix, at least (N d, N d)."""
     reach, d, n = band.shape[0] // 2, band.shape[1], band.shape[3]

@@ -1,12 +1,12 @@
 """Distances between beads."""
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Positions
+from sedfiber.physics.kernel import kernel
 
 
-@njit(cache=True)
+@kernel()
 def smallest_gap(x: Positions, fiber_beads: int) -> float:
     """Smallest centre distance between beads that are not neighbours in a fiber, less one diameter."""
     n, d = x.shape
@@ -22,7 +22,7 @@ def smallest_gap(x: Positions, fiber_beads: int) -> float:
     return np.sqrt(best) - 2.0
 
 
-@njit(cache=True)
+@kernel()
 def closest_distance(x: Positions) -> float:
     """Smallest distance of two bead centres, neighbours included."""
     n, d = x.shape

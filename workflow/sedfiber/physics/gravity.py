@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Band, Positions
+from sedfiber.physics.kernel import kernel
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Gravity:
         return -float(x.sum(axis=0) @ np.array(self.weight[: x.shape[1]]))
 
 
-@njit(cache=True)
+@kernel()
 def _add_force(gx, gy, gz, force):
     for i in range(force.shape[0]):
         force[i, 0] += gx

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Array, Matrix, Positions
+from sedfiber.physics.kernel import kernel
 
 Gradient = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
 
@@ -55,7 +55,7 @@ class LinearFlow:
         _add_jacobian(x.shape[0], x.shape[1], self._matrix, jac)
 
 
-@njit(cache=True)
+@kernel()
 def _add_velocity(x, g, u):
     n, d = x.shape
     for i in range(n):
@@ -64,7 +64,7 @@ def _add_velocity(x, g, u):
                 u[i, k] += g[k, w] * x[i, w]
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(n, d, g, jac):
     for i in range(n):
         for k in range(d):

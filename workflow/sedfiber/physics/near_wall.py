@@ -1,9 +1,9 @@
 """A mobility near a no-slip plane: that of unbounded fluid, and the wall's correction."""
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Band, Matrix, Positions
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.wall import WallCorrection
 
@@ -41,7 +41,7 @@ class NearWall:
         self.wall.add_gradient(x, force, jac)
 
 
-@njit(cache=True)
+@kernel()
 def _add_product(m: Matrix, band: Band, jac: Matrix) -> None:
     """Add ``m ∂F/∂x`` to ``jac``, at least (N d, N d), for a banded ``∂F/∂x``."""
     reach, d, n = band.shape[0] // 2, band.shape[1], band.shape[3]

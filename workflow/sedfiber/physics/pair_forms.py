@@ -9,7 +9,7 @@ For beads ``i ≠ j`` of radius 1 with ``r = x_i − x_j``, in units ``1/(6πμa
 Oseen is Rotne–Prager without its ``1/r³``.  Sources: Rotne & Prager 1969; Yamakawa 1970.
 """
 
-from numba import njit
+from sedfiber.physics.kernel import kernel
 
 OSEEN, RPY, RPY_OVERLAP = range(3)
 REACH = 2  # beads along the chain that an elastic force on a bead depends on, to each side
@@ -17,7 +17,7 @@ REACH = 2  # beads along the chain that an elastic force on a bead depends on, t
 FAST = {"reassoc", "contract", "nsz", "arcp"}
 
 
-@njit(cache=True, inline="always")
+@kernel(inline="always")
 def coefficients(r2, form):
     """At one squared distance: ``c1``, ``c2/r²``, ``c1'/r`` and ``(c2/r²)'/r``.
 

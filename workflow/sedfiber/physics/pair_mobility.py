@@ -1,10 +1,10 @@
 """Mobilities summed over bead pairs: Oseen, and Rotne–Prager–Yamakawa with or without its overlap form."""
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Band, Matrix, Positions
 from sedfiber.physics import pair_plane, pair_volume
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_forms import OSEEN, RPY, RPY_OVERLAP, coefficients
 
 FORMS = {"Oseen": OSEEN, "RPY": RPY, "RPY-overlap": RPY_OVERLAP}
@@ -39,7 +39,7 @@ class PairMobility:
         self._linearise(x, force, band, self._form, u, jac)
 
 
-@njit(cache=True)
+@kernel()
 def _fill_matrix(x: Positions, form: int, m: Matrix) -> None:
     n, d = x.shape
     r = np.empty(d)

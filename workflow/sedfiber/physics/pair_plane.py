@@ -6,13 +6,13 @@ twice the time.
 """
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Array, Band, Matrix, Positions
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_forms import FAST, REACH, coefficients
 
 
-@njit(cache=True)
+@kernel()
 def _rows(x: Positions, force: Positions) -> Array:
     """``x, y, Fx, Fy`` as contiguous rows, shape (4, N)."""
     rows = np.empty((4, x.shape[0]))
@@ -22,7 +22,7 @@ def _rows(x: Positions, force: Positions) -> Array:
     return rows
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def velocities(x: Positions, force: Positions, form: int, u: Positions) -> None:
     """``u = M(x) F``, shape (N, 2)."""
     n = x.shape[0]
@@ -43,7 +43,7 @@ def velocities(x: Positions, force: Positions, form: int, u: Positions) -> None:
         u[i, 1] = uy + own * force[i, 1]
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def linearise(x: Positions, force: Positions, band: Band, form: int, u: Positions, jac: Matrix) -> None:
     """Write ``M F`` to ``u`` and add ``M ∂F/∂x + (∂M/∂x) F`` to ``jac``, at least (2N, 2N).
 

@@ -1,13 +1,13 @@
 """Sums over bead pairs in volume: ``pair_plane`` with a third coordinate."""
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Array, Band, Matrix, Positions
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_forms import FAST, REACH, coefficients
 
 
-@njit(cache=True)
+@kernel()
 def _rows(x: Positions, force: Positions) -> Array:
     """``x, y, z, Fx, Fy, Fz`` as contiguous rows, shape (6, N)."""
     rows = np.empty((6, x.shape[0]))
@@ -17,7 +17,7 @@ def _rows(x: Positions, force: Positions) -> Array:
     return rows
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def velocities(x: Positions, force: Positions, form: int, u: Positions) -> None:
     """``u = M(x) F``, shape (N, 3)."""
     n = x.shape[0]
@@ -40,7 +40,7 @@ def velocities(x: Positions, force: Positions, form: int, u: Positions) -> None:
         u[i, 2] = uz + own * force[i, 2]
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def linearise(x: Positions, force: Positions, band: Band, form: int, u: Positions, jac: Matrix) -> None:
     """Write ``M F`` to ``u`` and add ``M ∂F/∂x + (∂M/∂x) F`` to ``jac``, at least (3N, 3N)."""
     n = x.shape[0]
@@ -69,7 +69,7 @@ def linearise(x: Positions, force: Positions, band: Band, form: int, u: Position
                     jac[3 * i + k, 3 * j + w] += g[3 * k + w, j]
 
 
-@njit(cache=True, fastmath=FAST)
+@kernel(fastmath=FAST)
 def _pair_row(x, rows, i, form, m, g):
     """Bead i with every bead: its row of ``M`` into ``m`` and of ``(∂M/∂x) F`` into ``g`` (see pair_plane)."""
     own = np.zeros(9)

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Array, Matrix, Positions
+from sedfiber.physics.kernel import kernel
 
 
 @dataclass(frozen=True)
@@ -35,14 +35,14 @@ class ParabolicFlow:
         _add_jacobian(x, self.peak, self.half_width, jac)
 
 
-@njit(cache=True)
+@kernel()
 def _add_velocity(x, peak, half_width, u):
     over = 1.0 / (half_width * half_width)
     for i in range(x.shape[0]):
         u[i, 0] += peak * (1.0 - over * (x[i, 1] * x[i, 1] + 1.0 / 3.0))
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(x, peak, half_width, jac):
     n, d = x.shape
     for i in range(n):

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Band, Positions
+from sedfiber.physics.kernel import kernel
 from sedfiber.physics.protocols import TO_THE_LAST
 
 
@@ -40,7 +40,7 @@ class Stretching:
         return _energy(x, self.modulus, self.first, self.last)
 
 
-@njit(cache=True)
+@kernel()
 def _energy(x, modulus, first, last):
     total = 0.0
     for j in range(first, min(last, x.shape[0]) - 1):
@@ -51,7 +51,7 @@ def _energy(x, modulus, first, last):
     return modulus * total
 
 
-@njit(cache=True)
+@kernel()
 def _add_force(x, modulus, first, last, force):
     spatial = x.shape[1] == 3
     end = min(last, x.shape[0]) - 1
@@ -73,7 +73,7 @@ def _add_force(x, modulus, first, last, force):
         force[end, 2] -= pz
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(x, modulus, first, last, band):
     d = x.shape[1]
     b = np.empty(d)

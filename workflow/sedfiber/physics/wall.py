@@ -32,9 +32,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 
 from sedfiber._typing import Array, Matrix, Positions
+from sedfiber.physics.kernel import kernel
 
 STEP = 2.0**-100  # a power of two divides without rounding
 
@@ -90,7 +90,7 @@ class WallCorrection:
         return (rows.reshape(-1, 3) @ self._axes.T).reshape(m.shape)
 
 
-@njit(cache=True)
+@kernel()
 def coefficients(rho2, zi, zj):
     """``A, B, C, g, f`` for a squared horizontal distance and two heights, real or complex."""
     z = zi + zj
@@ -109,7 +109,7 @@ def coefficients(rho2, zi, zj):
     return a, b, c, g, f
 
 
-@njit(cache=True)
+@kernel()
 def _fill_block(rx, ry, zi, zj, block):
     """Write ``ΔM_ij``, shape (3, 3), real or complex."""
     a, b, c, g, f = coefficients(rx * rx + ry * ry, zi, zj)
@@ -123,7 +123,7 @@ def _fill_block(rx, ry, zi, zj, block):
     block[2, 2] = c
 
 
-@njit(cache=True)
+@kernel()
 def _add_velocity(x, force, u):
     block = np.empty((3, 3))
     for i in range(x.shape[0]):
@@ -136,7 +136,7 @@ def _add_velocity(x, force, u):
                         u[j, w] += block[k, w] * force[i, k]  # ΔM_ji = ΔM_ijᵀ
 
 
-@njit(cache=True)
+@kernel()
 def _fill_matrix(x, m):
     block = np.empty((3, 3))
     for i in range(x.shape[0]):
@@ -148,7 +148,7 @@ def _fill_matrix(x, m):
                     m[3 * j + w, 3 * i + k] = block[k, w]
 
 
-@njit(cache=True)
+@kernel()
 def _add_gradient(x, force, jac):
     at = np.empty(4, np.complex128)
     block = np.empty((3, 3), np.complex128)
@@ -168,7 +168,7 @@ def _add_gradient(x, force, jac):
                     _add_column(jac, i, j, 3 * j + min(c, 2), -1.0 if c < 2 else 1.0, on_i, on_j)
 
 
-@njit(cache=True)
+@kernel()
 def _velocities(block, force_i, force_j, on_i, on_j):
     """Derivatives of the velocity of ``i`` from the force on ``j``, and the other way round."""
     for k in range(3):
@@ -178,7 +178,7 @@ def _velocities(block, force_i, force_j, on_i, on_j):
             on_j[k] += block[w, k].imag / STEP * force_i[w]
 
 
-@njit(cache=True)
+@kernel()
 def _add_column(jac, i, j, column, sign, on_i, on_j):
     for k in range(3):
         jac[3 * i + k, column] += sign * on_i[k]

@@ -3,9 +3,8 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from numba import njit
-
 from sedfiber._typing import Band, Positions
+from sedfiber.physics.kernel import kernel
 
 
 @dataclass(frozen=True)
@@ -44,14 +43,14 @@ class WallContact:
         return _energy(x, self.strength, 0.5 * self.reach, self.point, self.normal)
 
 
-@njit(cache=True)
+@kernel()
 def _height(x, i, point, normal):
     """Distance of the centre of bead ``i`` from the wall, positive in the fluid."""
     across = (x[i, 0] - point[0]) * normal[0] + (x[i, 1] - point[1]) * normal[1]
     return across + (x[i, 2] - point[2]) * normal[2]
 
 
-@njit(cache=True)
+@kernel()
 def _energy(x, strength, top, point, normal):
     width = top * top - 1.0
     total = 0.0
@@ -63,7 +62,7 @@ def _energy(x, strength, top, point, normal):
     return strength / 10.0 * total
 
 
-@njit(cache=True)
+@kernel()
 def _add_force(x, strength, top, point, normal, force):
     nx, ny, nz = normal
     for i in range(x.shape[0]):
@@ -75,7 +74,7 @@ def _add_force(x, strength, top, point, normal, force):
             force[i, 2] += push * nz
 
 
-@njit(cache=True)
+@kernel()
 def _add_jacobian(x, strength, top, point, normal, band):
     nx, ny, nz = normal
     n = (float(nx), float(ny), float(nz))

@@ -1,8 +1,10 @@
 """The source's integrator: explicit Runge–Kutta 4(5) through ``scipy.integrate.ode``."""
 
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from typing import Any
 
+import numpy as np
 from scipy.integrate import ode
 
 from sedfiber._typing import State
@@ -18,12 +20,13 @@ class Dopri5(March):
     """
 
     name = "dopri5"
+    _failure: BaseException | None = None
 
     def states(self, start: State, interval: float) -> Iterator[State]:
-        solver = ode(self.system.rhs)
+        solver = ode(self._heard(self.system.rhs, np.full_like(start, np.nan)))
         tolerances = {"rtol": self.tolerances.rtol, "atol": self.tolerances.atol}
         solver.set_integrator("dopri5", nsteps=_STEPS_PER_CALL, **tolerances)
-        solver.set_solout(self._count_step)
+        solver.set_solout(self._heard(self._count_step, -1))
         solver.set_initial_value(start, 0.0)
         yield start
         sample = 1
@@ -31,6 +34,22 @@ class Dopri5(March):
             y = self._advance(solver, sample * interval)
             yield y.copy()
             sample += 1
+
+    def _heard(self, callback: Callable, otherwise: Any) -> Callable:
+        """``callback``, whose exceptions wait for the end of the call: the solver would go on, and break on them.
+
+        What it is given instead, ``otherwise``, makes it stop.
+        """
+
+        def call(t: float, y: State) -> Any:
+            if self._failure is None:
+                try:
+                    return callback(t, y)
+                except BaseException as error:  # an effect of the user's that fails, or Ctrl-C
+                    self._failure = error
+            return otherwise
+
+        return call
 
     def _count_step(self, t: float, y: State) -> int:
         self.counters.steps += 1
@@ -40,6 +59,8 @@ class Dopri5(March):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", UserWarning)  # its warning becomes our error
             y = solver.integrate(t)
+        if self._failure is not None:
+            raise self._failure
         self.counters.rhs = self.system.rhs_count
         if not solver.successful():
             why = f"gave up, the problem is probably stiff (return code {solver.get_return_code()})"

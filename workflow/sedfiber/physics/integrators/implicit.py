@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.integrate import BDF, OdeSolver, Radau
 
-from sedfiber._typing import State
+from sedfiber._typing import Matrix, State
 from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST, MOST_STEPS, March
 
 
@@ -23,7 +23,7 @@ class _SciPyMarch(March):
             first_step=min(FIRST_STEP * interval, LONGEST_FIRST),
             rtol=self.tolerances.rtol,
             atol=self.tolerances.atol,
-            jac=self.system.jacobian,
+            jac=self._jacobian,
         )
         yield start
         sample, steps_before = 1, 0
@@ -37,6 +37,13 @@ class _SciPyMarch(March):
             while sample * interval <= solver.t:
                 yield self.require_finite(solver.t, path(sample * interval))
                 sample, steps_before = sample + 1, self.counters.steps
+
+    def _jacobian(self, t: float, y: State) -> Matrix:
+        """Finite, or an error here: SciPy's factorisation would end in one without a time."""
+        jac = self.system.jacobian(t, y)
+        if not np.isfinite(jac).all():
+            raise self.stuck(t, y, "the Jacobian is not finite", "try a smaller --rtol")
+        return jac
 
     def _step(self, solver: OdeSolver) -> None:
         before = solver.t
