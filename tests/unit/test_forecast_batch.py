@@ -30,15 +30,15 @@ def command(trained_model, tmp_path, capsys):
 
 def test_every_row_is_written_as_alone(command, trained_model, tmp_path):
     """The same bytes as by --B and --theta0; the name says which."""
-    status, err, into = command("B,theta0\n100,0.3\n250.5,-1.2\n400,0\n")
+    status, err, into = command("B,theta0\n100,0.3\n250.5,-0.6\n400,0\n")
     assert (status, err) == (0, "")
     assert sorted(path.name for path in into.iterdir()) == [
-        "B100_theta0.3.parquet", "B250.5_theta-1.2.parquet", "B400_theta0.parquet",
+        "B100_theta0.3.parquet", "B250.5_theta-0.6.parquet", "B400_theta0.parquet",
     ]  # fmt: skip
     alone = tmp_path / "alone.parquet"
-    words = ["forecast", "--B", 250.5, "--theta0", -1.2, "--t-end", 5, "--model", trained_model, "-o", alone]
+    words = ["forecast", "--B", 250.5, "--theta0", -0.6, "--t-end", 5, "--model", trained_model, "-o", alone]
     assert main([str(word) for word in words]) == 0
-    assert (into / "B250.5_theta-1.2.parquet").read_bytes() == alone.read_bytes()
+    assert (into / "B250.5_theta-0.6.parquet").read_bytes() == alone.read_bytes()
 
 
 def test_parquet_shapes_and_names(command, tmp_path):

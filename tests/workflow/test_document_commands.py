@@ -89,7 +89,7 @@ class Reader:
         path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
         how = {
             "cwd": self.folder,
-            "env": clean_environment() | {"PATH": path, "PIP_DRY_RUN": "1"},
+            "env": clean_environment() | {"PATH": path},
             "stdin": subprocess.DEVNULL,
         }
         both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}

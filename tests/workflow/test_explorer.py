@@ -1,6 +1,5 @@
 """The explorer in a real browser: its forecasts are Python's, and it is used by keyboard, offline and on a phone."""
 
-import argparse
 import shutil
 from dataclasses import replace
 
@@ -8,8 +7,8 @@ import numpy as np
 import pytest
 import torch
 from browser import opened_page
+from explorer_page import CLOSE, distance, forecast, make
 
-from sedfiber.commands import make_explorer
 from sedfiber.dataset_file import write_dataset
 from sedfiber.errors import InputError
 from sedfiber.forecasting import load_model
@@ -27,7 +26,6 @@ from sedfiber.terminal_curve import TerminalCurve, write_terminal_curve
 
 pytestmark = pytest.mark.slow
 
-CLOSE = 1e-5  # of L; the page promises 1e-4
 SIMULATED, ELSEWHERE = ("200", "37.5"), ("250", "20")  # ℬ and θ₀ in degrees
 DARK = """canvas => {
   const {data} = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
@@ -35,14 +33,6 @@ DARK = """canvas => {
   for (let i = 0; i < data.length; i += 4) dark += data[i + 3] > 200 && data[i] + data[i + 1] + data[i + 2] < 60;
   return dark;
 }"""
-
-
-def make(model, *datasets, output) -> None:
-    """What the command does."""
-    parser = argparse.ArgumentParser()
-    make_explorer.add_arguments(parser)
-    words = ["--model", model, "--dataset", *datasets, "-o", output]
-    make_explorer.run(parser.parse_args([str(word) for word in words]))
 
 
 @pytest.fixture(scope="module")
@@ -86,17 +76,6 @@ def choose(page, B: str, degrees: str) -> None:
 def shown(page, name: str) -> str:
     """The words in the element of that id."""
     return page.inner_text(f"#{name}")
-
-
-def forecast(page, B: float, theta0: float, t: np.ndarray) -> np.ndarray:
-    """Positions (T, N, 2) that the page computes."""
-    flat = page.evaluate("given => Array.from(sedfiber.forecast(...given))", [B, theta0, t.tolist()])
-    return np.array(flat).reshape(len(t), -1, 2)
-
-
-def distance(one: np.ndarray, other: np.ndarray) -> float:
-    """Largest distance of two beads over L, of positions (T, N, 2)."""
-    return np.linalg.norm(one - other, axis=-1).max() / (2 * one.shape[1])
 
 
 @pytest.mark.parametrize(

@@ -1,18 +1,25 @@
-"""`pip install .` in a fresh environment outside the checkout: the command forecasts with the shipped model."""
+"""`pip install .` in a fresh environment outside the checkout: what a user calls works, with the shipped model.
+
+The environment has what pyproject.toml asks for without extras, and what that asks for in turn: links to the
+packages of this one, so that no network is needed. No torch, no Snakemake, nothing that happens to be here.
+"""
 
 import os
 import re
 import shutil
 import subprocess
 import sys
-import sysconfig
+from importlib.metadata import Distribution, distribution
 from pathlib import Path
 
 import pytest
 from cold_start import START, measure, words
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 from workflow_helpers import REPOSITORY
 
 import sedfiber
+from sedfiber.cli import TOOLS
 
 pytestmark = pytest.mark.slow
 SLOW = ("numba", "torch", "pandas", "scipy", "matplotlib")
@@ -27,7 +34,7 @@ def run(*line, folder):
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
-    """Folder of programs of an environment that has sedfiber from a copy, and all else from this environment."""
+    """Folder of programs of an environment that has sedfiber from a copy, and what it depends on."""
     folder = tmp_path_factory.mktemp("installed")
     copied = folder / "copy"
     copied.mkdir()
@@ -38,12 +45,44 @@ def installed(tmp_path_factory):
     run(sys.executable, "-m", "venv", "--without-pip", folder / "fresh", folder=folder)
     programs = folder / "fresh/bin"
     packages = run(programs / "python", "-c", "import sysconfig; print(sysconfig.get_path('purelib'))", folder=folder)
-    Path(packages.stdout.strip(), "others.pth").write_text(sysconfig.get_path("purelib") + "\n")
-    pip = (sys.executable, "-m", "pip", "--python", programs / "python", "install")
-    how = ("--quiet", "--no-deps", "--no-build-isolation", "--no-index", "--ignore-installed")
-    run(*pip, *how, copied, folder=folder)
+    for package in dependencies("sedfiber"):
+        link(package, Path(packages.stdout.strip()))
+    how = ("--quiet", "--no-deps", "--no-index")
+    run(sys.executable, "-m", "pip", "wheel", *how, "--no-build-isolation", copied, folder=folder)  # builds here
+    run(*pip(programs), "install", *how, next(folder.glob("*.whl")), folder=folder)
     shutil.rmtree(copied)
     return programs
+
+
+def pip(programs: Path) -> tuple:
+    """The beginning of a line that calls this environment's pip on that one."""
+    return (sys.executable, "-m", "pip", "--python", programs / "python")
+
+
+def dependencies(root: str) -> list[Distribution]:
+    """Every package that one needs without extras, itself left out; from the metadata of what is installed here."""
+    found, waiting = {canonicalize_name(root): distribution(root)}, [distribution(root)]
+    while waiting:
+        for line in waiting.pop().requires or []:
+            wanted = Requirement(line)
+            name = canonicalize_name(wanted.name)
+            if name not in found and (wanted.marker is None or wanted.marker.evaluate({"extra": ""})):
+                found[name] = distribution(name)
+                waiting.append(found[name])
+    return list(found.values())[1:]
+
+
+def link(package: Distribution, folder: Path) -> None:
+    """Its modules, libraries and metadata, but no programs."""
+    for name in {path.parts[0] for path in package.files} - {"..", "__pycache__"}:
+        (folder / name).symlink_to(package.locate_file(name))
+
+
+def test_its_dependencies_are_all_there_and_nothing_else(installed, tmp_path):
+    """By pip's own reckoning; what trains models and runs the workflow is not."""
+    assert "No broken requirements" in run(*pip(installed), "check", folder=tmp_path).stdout
+    names = {line.split("==")[0] for line in run(*pip(installed), "freeze", folder=tmp_path).stdout.splitlines()}
+    assert {"numpy", "numba", "matplotlib"} <= names and not {"torch", "torchdiffeq", "snakemake"} & names
 
 
 def test_the_command_forecasts_with_the_model_that_came_along(installed, tmp_path):
@@ -56,6 +95,24 @@ def test_the_command_forecasts_with_the_model_that_came_along(installed, tmp_pat
     assert written.t[-1] == pytest.approx(written.settling_time, abs=1.0)
     here = sedfiber.load_model().forecast(1000, 0.7854, written.t)
     assert abs(here - written.positions).max() < 1e-4
+
+
+def test_every_tool_works_there(installed, tmp_path):
+    """A user's commands, one after the other, each with what the ones before it wrote."""
+    lines = {
+        "forecast": [*START, "-o", "forecast.parquet"],
+        "simulate": [*START, "-o", "simulated.parquet"],
+        "steady": ["--B", "1000", "--json"],
+        "effects": [],
+        "compare": ["simulated.parquet", "forecast.parquet", "-o", "e.csv"],
+        "plot": ["simulated.parquet", "-o", "simulated.png"],
+        "advise": ["--help"],
+    }
+    assert set(lines) == set(TOOLS)
+    for name, rest in lines.items():
+        run(installed / "sedfiber", name, *rest, folder=tmp_path)
+    written = {path.name for path in tmp_path.iterdir()}
+    assert written == {"forecast.parquet", "simulated.parquet", "e.csv", "simulated.png"}
 
 
 def test_it_imports_nothing_slow(installed, tmp_path):
