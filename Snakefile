@@ -39,6 +39,7 @@ STUDY_RESULTS = [
     rules.forecasts.input,
     rules.errors.input,
     rules.figures.input,
+    rules.make_explorer.output,
     rules.tabulate_regimes.output,
     rules.tabulate_key_numbers.output,
 ]

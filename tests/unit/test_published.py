@@ -27,6 +27,7 @@ def checkout(tmp_path) -> Path:
     git(tmp_path, "add", "-A")
     git(tmp_path, "commit", "-qm", "code")
     files = {"tables/a.csv": "x\n1\n", "figures/a.svg": "<svg/>", "figures/a.png": "png", "models/m.bin": "m"}
+    files["explorer.html"] = "<html>"
     for name, text in files.items():
         path = tmp_path / "results" / name
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -48,16 +49,16 @@ def published(folder: Path) -> set[str]:
 
 def test_tables_drawings_and_manifest_are_copied_and_nothing_else(checkout):
     """Pixels, models and trajectories stay where they are."""
-    assert published(checkout) == {"manifest.json", "tables/a.csv", "figures/a.svg"}
+    assert published(checkout) == {"manifest.json", "explorer.html", "tables/a.csv", "figures/a.svg"}
 
 
 def test_what_was_published_before_is_replaced(checkout):
     """A table that is no more is not left behind."""
     published(checkout)
     (checkout / "results/published/tables/old.csv").write_text("x\n")
-    assert published(checkout) == {"manifest.json", "tables/a.csv", "figures/a.svg"}
+    assert published(checkout) == {"manifest.json", "explorer.html", "tables/a.csv", "figures/a.svg"}
     assert {path.name for path in (checkout / "results").iterdir()} == {
-        "manifest.json", "tables", "figures", "models", "published",
+        "manifest.json", "explorer.html", "tables", "figures", "models", "published",
     }  # fmt: skip
 
 

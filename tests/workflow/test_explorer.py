@@ -257,6 +257,14 @@ def test_the_same_input_gives_the_same_bytes(file, trained_model, dataset, tmp_p
     assert (tmp_path / "again.html").read_bytes() == file.read_bytes()
 
 
+def test_a_fall_outside_the_models_range_is_left_out_and_counted(falls, trained_model, tmp_path):
+    """A test set may go beyond the training; the page cannot."""
+    write_dataset([*falls, replace(falls[0], B=1000.0)], tmp_path / "falls.parquet")
+    make(trained_model, tmp_path / "falls.parquet", output=tmp_path / "explorer.html")
+    text = (tmp_path / "explorer.html").read_text(encoding="utf-8")
+    assert "Simulated falls: training 2, test set B 1; 1 outside that range are not shown." in " ".join(text.split())
+
+
 def broken(case: str, model, falls, folder) -> tuple:
     """Model folder and data set with something wrong."""
     write_dataset(falls, folder / "falls.parquet")
@@ -286,7 +294,7 @@ def broken(case: str, model, falls, folder) -> tuple:
         ("no curve", "solve_terminal_curve"),
         ("no data set", "cannot read"),
         ("other beads", "angle_index = 0 has 5 beads, the model 7"),
-        ("outside the range", "B = 1000, angle_index = 0 is outside the model's range"),
+        ("outside the range", "no fall is within the model's range"),
         ("unknown split", "is of the split 'C'"),
         ("not finite", "not finite"),
         ("out of the plane", "leaves the plane"),

@@ -199,6 +199,7 @@ def benchmarks():
         "tabulate_lags",
         "tabulate_key_numbers",
         *(f"plot_{figure}" for figure in STUDY_FIGURES),
+        "make_explorer",
     ]
     return [f"results/benchmarks/{name}.tsv" for name in names]
 

@@ -1,7 +1,7 @@
 """The results that the repository shows: copied from a full run of the committed code, or refused.
 
-Published are the manifest, every table and the SVG of every figure that the manifest has a checksum
-of, so that what is shown is what one run made.
+Published are the manifest, the explorer, every table and the SVG of every figure that the manifest has
+a checksum of, so that what is shown is what one run made.
 """
 
 import json
@@ -16,7 +16,7 @@ from sedfiber.errors import InputError
 # What a result depends on; documents and tests may change after the run, and the shipped model is itself a result.
 CODE = ("Snakefile", "config.yaml", "workflow", "envs", "profiles", ":(exclude)workflow/sedfiber/shipped")
 MANIFEST = "manifest.json"
-_SHOWN = {"tables": ".csv", "figures": ".svg"}
+_SHOWN = ("results/explorer.html", "results/tables/*.csv", "results/figures/*.svg")
 
 
 def publish(results: Path, into: Path, repository: Path) -> list[Path]:
@@ -27,14 +27,9 @@ def publish(results: Path, into: Path, repository: Path) -> list[Path]:
     """
     manifest = read_manifest(results)
     require_committed(manifest["commit"], repository)
-    chosen = [path for path in manifest["sha256"] if _is_shown(Path(path))]
+    chosen = [path for path in manifest["sha256"] if any(Path(path).match(shown) for shown in _SHOWN)]
     require_recorded(manifest, chosen, results)
     return _replace(into, [results.parent / path for path in chosen] + [results / MANIFEST], results)
-
-
-def _is_shown(path: Path) -> bool:
-    """``results/tables/x.csv`` and ``results/figures/x.svg``."""
-    return len(path.parts) == 3 and _SHOWN.get(path.parts[1]) == path.suffix
 
 
 def read_manifest(results: Path) -> dict:

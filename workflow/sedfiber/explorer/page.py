@@ -46,9 +46,14 @@ def explorer_page(folder: Path, datasets: Sequence[Path]) -> str:
     forecaster = load_model(folder)
     if forecaster.curve is None:
         raise InputError(f"model: {folder} has no {CURVE} beside it; make it with solve_terminal_curve")
-    falls = [fall for path in datasets for fall in _falls_of(path, forecaster)]
+    given = [fall for path in datasets for fall in _falls_of(path, forecaster)]
+    falls = [fall for fall in given if _is_within_range(fall, forecaster)]
+    if not falls:
+        raise InputError(
+            f"dataset: no fall is within the model's range ({forecaster.range_words()}); give some that are"
+        )
     tensors, card = read_model(folder)
-    return _filled_in(_data(forecaster, tensors, falls), _words(forecaster, falls, card))
+    return _filled_in(_data(forecaster, tensors, falls), _words(forecaster, falls, len(given), card))
 
 
 def _data(forecaster: Forecaster, tensors: Tensors, falls: Sequence[Fall]) -> dict:
@@ -67,7 +72,7 @@ def _data(forecaster: Forecaster, tensors: Tensors, falls: Sequence[Fall]) -> di
 
 
 def _falls_of(path: Path, forecaster: Forecaster) -> list[Fall]:
-    """The falls of a data set, all such that the page can forecast them."""
+    """The falls of a data set, all such that the page can show them."""
     falls = read_falls(path)
     for fall in falls:
         wrong = _misfit(fall, forecaster)
@@ -81,13 +86,16 @@ def _misfit(fall: Fall, forecaster: Forecaster) -> str:
     n_beads = forecaster.model.scales.n_beads
     if fall.positions.shape[1] != n_beads:
         return f"has {fall.positions.shape[1]} beads, the model {n_beads}"
-    if not (forecaster.covers(fall.B, fall.theta0) and forecaster.curve.covers(fall.B)):
-        return f"is outside the model's range ({forecaster.range_words()})"
     if fall.split not in SETS:
         return f"is of the split {fall.split!r}, not of {', '.join(SETS)}"
     if len(fall.t) < _FEWEST_SAMPLES or not (np.isfinite(fall.t).all() and np.isfinite(fall.positions).all()):
         return f"has fewer than {_FEWEST_SAMPLES} samples or values that are not finite"
     return "leaves the plane z = 0" if np.abs(fall.positions[..., 2]).max() > _FLAT else ""
+
+
+def _is_within_range(fall: Fall, forecaster: Forecaster) -> bool:
+    """Whether the page can forecast it: it knows nothing of what a forecast is outside the training."""
+    return forecaster.covers(fall.B, fall.theta0) and forecaster.curve.covers(fall.B)
 
 
 def _splits(falls: Sequence[Fall]) -> list[str]:
@@ -168,12 +176,13 @@ def _packed(array: Array, kind: str = "float64") -> dict:
     return {"type": kind, "data": base64.b64encode(content).decode()}
 
 
-def _words(forecaster: Forecaster, falls: Sequence[Fall], card: dict) -> dict[str, str]:
-    """What the page says of the model and the falls."""
+def _words(forecaster: Forecaster, falls: Sequence[Fall], given: int, card: dict) -> dict[str, str]:
+    """What the page says of the model and the falls, which may be fewer than were ``given``."""
     model, scales = forecaster.model, forecaster.model.scales
     counts = {split: sum(fall.split == split for fall in falls) for split in _splits(falls)}
     keys = [f'<span class="key" style="background: {SETS[split][1]}"></span>{SETS[split][2]}' for split in counts]
     sources = ", ".join(f"{SETS[split][2]} {count}" for split, count in counts.items())
+    left_out = f"; {given - len(falls)} outside that range are not shown" if given > len(falls) else ""
     return {
         "latent_dim": str(model.latent_dim),
         "training_falls": str(counts.get("train", 0)),
@@ -183,7 +192,7 @@ def _words(forecaster: Forecaster, falls: Sequence[Fall], card: dict) -> dict[st
         "provenance": html.escape(
             f"{scales.n_beads} beads, {forecaster.hydrodynamics} hydrodynamics. Model {card['sha256'][:12]}, trained "
             f"for ℬ from {scales.B_min:g} to {scales.B_max:g} and |θ₀| up to {np.degrees(scales.theta0_max):g}°. "
-            f"Simulated falls: {sources}."
+            f"Simulated falls: {sources}{left_out}."
         ),
     }
 
