@@ -117,6 +117,15 @@ def test_any_trajectory_is_drawn_twice_alike(fall, tmp_path, suffix):
     assert pictures[0] == pictures[1] and pictures[0].startswith({"png": b"\x89PNG", "svg": b"<?xml"}[suffix])
 
 
+def test_a_picture_without_a_name_has_the_trajectorys(fall, tmp_path, monkeypatch, capsys):
+    """In the folder where the user is, and it is said."""
+    (tmp_path / "elsewhere").mkdir()
+    write_trajectory(fall, tmp_path / "elsewhere/B300_k9.parquet")
+    monkeypatch.chdir(tmp_path)
+    assert main(["plot", "elsewhere/B300_k9.parquet"]) == 0
+    assert capsys.readouterr().out == "drew B300_k9.png\n" and (tmp_path / "B300_k9.png").exists()
+
+
 def test_a_forecast_is_drawn_and_says_that_it_is_one(tmp_path):
     words = ["--B", "1000", "--theta0", "0.7853981633974483", "-o", str(tmp_path / "f.parquet")]
     assert main(["forecast", *words]) == 0

@@ -19,18 +19,23 @@ _MOST_SHOWN = 2  # different fibers, whose ℬ and θ₀ fit into a title
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The trajectory and the picture."""
     parser.add_argument("trajectory", type=Path, help="trajectory file to draw")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="picture to write, .png or .svg")
+    parser.add_argument(
+        "-o", "--output", type=Path, help="picture to write, .png or .svg (the trajectory's name with .png, here)"
+    )
 
 
 def run(args: argparse.Namespace) -> None:
     """Refuse unusable outputs and files that tell no scene, then draw and write."""
-    if args.output.suffix not in SUFFIXES:
-        raise refused("output", str(args.output), f"a name that ends in {' or '.join(SUFFIXES)}")
-    require_writable(args.output)
+    output = Path(f"{args.trajectory.stem}.png") if args.output is None else args.output
+    if output.suffix not in SUFFIXES:
+        raise refused("output", str(output), f"a name that ends in {' or '.join(SUFFIXES)}")
+    require_writable(output)
     trajectory = read_trajectory(args.trajectory)
     if "space" not in trajectory.metadata.get("scene", {}):
         raise InputError(f"input: {str(args.trajectory)!r} does not say of what scene it is; give a trajectory file")
-    save_picture(lambda: draw_scene(trajectory, title_of(trajectory)), args.output)
+    save_picture(lambda: draw_scene(trajectory, title_of(trajectory)), output)
+    if args.output is None:
+        print(f"drew {output}")
 
 
 def title_of(trajectory: Trajectory) -> str:
