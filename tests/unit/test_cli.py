@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from sedfiber import Scene, read_trajectory, simulate, steady_state
-from sedfiber.cli import COMMANDS, STEPS, TOOLS, main
+from sedfiber.cli import COMMANDS, STEPS, THREADS, TOOLS, main
 
 OPTIONS = {"--B": "1000", "--theta0": "0.7854", "--n-beads": "11", "--t-end": "2"}
 SIMULATE = ["simulate", *(word for pair in OPTIONS.items() for word in pair)]
@@ -300,6 +300,15 @@ def test_module_is_the_command(tmp_path):
     assert bad.stderr.count("\n") == 1
     assert bad.stderr.startswith("sedfiber simulate: B: '-1' is not allowed")
     assert os.listdir(tmp_path) == []
+
+
+@pytest.mark.parametrize(("given", "found"), [({}, dict.fromkeys(THREADS, "1")), ({THREADS[0]: "2"},) * 2])
+def test_a_command_runs_on_one_thread_unless_told_how_many(monkeypatch, capsys, given, found):
+    """What NumPy will find when it is imported; the other variables stay unset, for they might be obeyed instead."""
+    environment = {name: value for name, value in os.environ.items() if name not in THREADS} | given
+    monkeypatch.setattr(os, "environ", environment)
+    assert main(["effects"]) == 0
+    assert {name: environment[name] for name in THREADS if name in environment} == found
 
 
 def test_simulation_imports_neither_torch_nor_pandas_nor_matplotlib(tmp_path):

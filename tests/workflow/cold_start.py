@@ -14,7 +14,8 @@ from statistics import median
 START = ("--B", "1000", "--theta0", "0.7854")
 IMPORTS = "import numpy, pyarrow.parquet"
 ITSELF = """
-import time
+import os, time
+os.environ["OPENBLAS_NUM_THREADS"] = "1"  # as the command does
 from sedfiber.forecasting import load_plain_model
 model = load_plain_model()
 begin = time.perf_counter()

@@ -1,6 +1,7 @@
 """The ``sedfiber`` command: one module of ``sedfiber.commands`` per verb."""
 
 import argparse
+import os
 import re
 import sys
 import textwrap
@@ -88,6 +89,7 @@ STEPS = {
 COMMANDS = TOOLS | STEPS
 # what comes with the extra `train` of the package
 TRAINING = ("torch", "torchdiffeq", "pytorch_optimizer")
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 REMEDY = "in the checkout: pip install '.[train]', or make environment"
 
 
@@ -106,6 +108,7 @@ class OneLineParser(argparse.ArgumentParser):
 def main(argv: list[str] | None = None) -> int:
     """Run one command; returns the exit status: 0, 1 for a failure, 2 for bad usage."""
     argv = sys.argv[1:] if argv is None else argv
+    _ask_for_one_thread()
     command = next((word for word in argv if not word.startswith("-")), None)
     warnings.filterwarnings("ignore", category=UserWarning, module="scipy.integrate")  # they become our errors
     try:
@@ -120,6 +123,14 @@ def main(argv: list[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     return 0
+
+
+def _ask_for_one_thread() -> None:
+    """Unless a user says how many: for matrices as small as here more threads take longer, up to five times on a busy
+    machine, and their number changes last bits. NumPy, which looks when it is imported, has not been yet.
+    """
+    if not any(name in os.environ for name in THREADS):
+        os.environ.update(dict.fromkeys(THREADS, "1"))
 
 
 def _parser(command: str | None, argv: list[str]) -> OneLineParser:
