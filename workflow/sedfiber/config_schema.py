@@ -8,9 +8,15 @@ from typing import Any
 import yaml
 from jsonschema import Draft202012Validator, ValidationError
 
+from sedfiber.validation import EXPONENT
+
 
 def validate(config: dict[str, Any], schema: Path) -> None:
-    """Exit with one line naming key, value and what is allowed, before any job starts."""
+    """Exit with one line naming key, value and what is allowed, before any job starts.
+
+    Numbers that YAML 1.1 takes for text, such as 1e-3, are made numbers in ``config`` first.
+    """
+    _read_exponents(config)
     _require_finite("", config)
     rules = yaml.safe_load(schema.read_text(encoding="utf-8"))
     faults = sorted(Draft202012Validator(rules).iter_errors(config), key=lambda fault: list(map(str, fault.path)))
@@ -30,6 +36,15 @@ def describe(fault: ValidationError) -> str:
         return f"{key}: key {missing!r} is missing"
     allowed = fault.schema.get("description", f"{fault.validator} {fault.validator_value}")
     return f"{key}: {fault.instance!r} is not allowed; give {allowed}"
+
+
+def _read_exponents(config: dict | list) -> None:
+    """In place, at every depth."""
+    for name, child in list(config.items() if isinstance(config, dict) else enumerate(config)):
+        if isinstance(child, dict | list):
+            _read_exponents(child)
+        elif isinstance(child, str) and EXPONENT.match(child):
+            config[name] = float(child)
 
 
 def _require_finite(key: str, value: Any) -> None:

@@ -1,6 +1,5 @@
 """Scenes as YAML files: the keys of ``Scene``, and under ``numerics`` those of ``Numerics``."""
 
-import re
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +10,7 @@ from sedfiber.numerics import Numerics
 from sedfiber.scene import Scene
 from sedfiber.scene_part import Part
 from sedfiber.scene_parts import PARTS, Contact, Fiber, Own
+from sedfiber.validation import EXPONENT
 
 
 class _Loader(yaml.SafeLoader):
@@ -24,8 +24,7 @@ class _Loader(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-_EXPONENT = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$")
-_Loader.add_implicit_resolver("tag:yaml.org,2002:float", _EXPONENT, list("-+.0123456789"))
+_Loader.add_implicit_resolver("tag:yaml.org,2002:float", EXPONENT, list("-+.0123456789"))
 
 
 def read_scene(path: str | Path, **changes: Any) -> tuple[Scene, Numerics]:

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     from sedfiber.scene_parts import Flow
 
 _TOUCHING = 2.0 * (1.0 - 1e-9)
+_THROUGH = 1.5  # a: where two straight rows of touching beads cross, one pair is nearer than √2
+_UNSTRAINED = 0.25  # a start whose every bond is strained by more, and all to one side, has another unit
 _NO_SLIP = 1e-6  # of the flow's speed as far away as the wall: what a normal written with few digits leaves on it
 
 
@@ -35,6 +37,8 @@ def require_sense(scene: "Scene") -> None:
         _require_no_slip(scene)
     if scene.fibers or scene.shape is not None or scene.disturbance is not None:
         _require_apart(scene, scene.start())
+    if scene.contact is not None and scene.n_fibers > 1:
+        _require_not_crossed(scene, scene.start())
     if scene.hydrodynamics == "Oseen":
         _require_positive(scene, scene.start())
 
@@ -109,6 +113,8 @@ def _require_apart(scene: "Scene", x: Positions) -> None:
     i, j, r = closest_pair(x)
     if r == 0.0:
         raise InputError(f"start: beads {i} and {j} are in one place; move one of them")
+    if scene.shape not in (None, "rest") and scene.stretching is not None and scene.n_beads > 1:
+        _require_bonds_of_touching_beads(scene, x)
     if scene.hydrodynamics == "Oseen" and r < _TOUCHING:
         raise InputError(
             f"hydrodynamics: Oseen with beads that overlap ({i} and {j} are {r:.4g} a apart) is not allowed; "
@@ -121,6 +127,29 @@ def _require_apart(scene: "Scene", x: Positions) -> None:
                 f"hydrodynamics: plain RPY is not positive definite for beads {i} and {j}, {r:.4g} a apart "
                 f"(smallest eigenvalue {least:.2g}); give RPY-overlap"
             )
+
+
+def _require_bonds_of_touching_beads(scene: "Scene", x: Positions) -> None:
+    """A shape in another unit would jump to its length at the start."""
+    bonds = np.linalg.norm(np.diff(x.reshape(scene.n_fibers, scene.n_beads, -1), axis=1), axis=-1)
+    strain = 0.5 * bonds - 1.0
+    if strain.min() > _UNSTRAINED or strain.max() < -_UNSTRAINED:
+        raise InputError(
+            f"shape: bonds are {bonds.min():.3g} to {bonds.max():.3g} a long, and 2 a at rest; "
+            "give positions in bead radii a, or stretching: none"
+        )
+
+
+def _require_not_crossed(scene: "Scene", x: Positions) -> None:
+    """Contact keeps fibers apart that start apart; those that start crossed it would hold together for good."""
+    fiber = np.arange(len(x)) // scene.n_beads
+    distance = np.where(fiber[:, None] == fiber, np.inf, np.linalg.norm(x[:, None] - x, axis=-1))
+    i, j = divmod(int(distance.argmin()), len(x))
+    if distance[i, j] < _THROUGH:
+        raise InputError(
+            f"contact: beads {i} and {j} are {distance[i, j]:.3g} a apart at the start, so near that their fibers may "
+            "be through each other, and contact would keep them so; move fibers.place, or change the shape"
+        )
 
 
 def _require_positive(scene: "Scene", x: Positions) -> None:

@@ -1,5 +1,7 @@
 """Whether a run has come to rest, and in which steady shape: the terminal U, or the W of a symmetric fall."""
 
+import math
+
 import numpy as np
 
 from sedfiber._typing import Positions, State
@@ -42,9 +44,14 @@ class Watch:
             return True
         name = "the unstable W" if self.settled_to(y) == "W" else "a steady shape"
         raise NumericalError(
-            f"came to rest at t = {t:g} in {name}, {distance:.3g} L from the terminal one; "
-            "give --t-end, or a larger --tilt to leave a symmetric start"
+            f"came to rest at t = {t:g} in {name}, {distance:.3g} L from the terminal one; {self._way_out()}"
         )
+
+    def _way_out(self) -> str:
+        """What to try where a fiber stays in a steady shape that it should leave."""
+        if self._scene.shape is None and abs(self._scene.start_angle) == math.pi / 2:
+            return "a vertical fiber falls along its axis: give another theta0, or --t-end"
+        return "give --t-end, or a larger --tilt to leave a symmetric start"
 
     def settled_to(self, y: State) -> str | None:
         """Name of the steady shape a state is within 1e-3 L of: "U" if it stays, "W" if it rests there, or None."""

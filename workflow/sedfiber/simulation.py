@@ -62,7 +62,7 @@ def simulate(
     settled_to = watch.settled_to(states[-1])
     t, states, settled, distance = _cut(t, states, watch, system, scene, numerics)
     checks = check(system, states, scene, distance)
-    checks.require()
+    checks.require(own_effects=bool(scene.own))
     estimated = estimate_error(scene, numerics, system, states) if needs_estimate(scene, numerics) else None
     metadata = _metadata(scene, numerics, march) | {
         "checks": checks.to_dict(),

@@ -88,7 +88,7 @@ def read_shape(value: Any, n_beads: int, dim: int) -> Any:
         raise refused("shape", _shown(value), allowed)
     if not np.isfinite(x).all():
         row = int(np.flatnonzero(~np.isfinite(x).all(axis=1))[0])
-        raise refused("shape", f"row {row} of {x[row].tolist()}", allowed)
+        raise InputError(f"shape: row {row + 1}, {x[row].tolist()}, is not allowed; give {allowed}")
     if dim == 2 and x[:, 2:].any():
         raise InputError("shape: leaves the plane z = 0 of a planar scene; give space: volume")
     padded = np.zeros((n_beads, 3))
@@ -112,7 +112,10 @@ def _from_file(path: Path) -> Positions:
             return np.load(path, allow_pickle=False) if npy else np.loadtxt(path, delimiter=",", ndmin=2)
     except (OSError, ValueError, EOFError) as error:
         why = str(error).splitlines()[0]
-        raise InputError(f"shape.file: cannot read {str(path)!r} ({why}); give .csv, .npy or a trajectory") from None
+        raise InputError(
+            f"shape.file: cannot read {str(path)!r} ({why}); give .csv (a row of 2 or 3 numbers for each bead, with "
+            "commas and without a header), .npy or a trajectory"
+        ) from None
 
 
 def _shown(value: Any) -> Any:

@@ -83,7 +83,10 @@ def _require_columns(path: Path, names: list[str]) -> None:
     missing = [name for name in REQUIRED if name not in names]
     strange = [name for name in names if name not in REQUIRED + OPTIONAL]
     if missing or strange or len(set(names)) < len(names):
-        what = f"no column {missing[0]!r}" if missing else f"a column {(strange or names)[0]!r} too many"
+        if missing:
+            what = f"no column {missing[0]!r} in {', '.join(names)[:60]!r}"
+        else:
+            what = f"a column {(strange or names)[0]!r} too many"
         raise InputError(f"{path.name}: {what}; give {', '.join(REQUIRED)} and, if needed, {', '.join(OPTIONAL)}")
 
 

@@ -1,10 +1,14 @@
 """One-line checks of single values, shared by scenes, commands and settings."""
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from sedfiber.errors import InputError
+
+# numbers that YAML 1.1 takes for text, for want of a point or a sign
+EXPONENT = re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$")
 
 
 def finite_number(key: str, value: Any, allowed: str = "a finite number") -> float:

@@ -41,8 +41,8 @@ class Checks:
         """Plain values for a file's metadata."""
         return asdict(self)
 
-    def require(self) -> None:
-        """Raise NumericalError naming the first bound that is broken."""
+    def require(self, own_effects: bool = False) -> None:
+        """Raise NumericalError naming the first bound that is broken; effects of the user's may be to blame."""
         noisy = self.energy_bound is None
         accuracy = "try a smaller noise.step" if noisy else "try a smaller --rtol or another --integrator"
         self._bound("bond strain", self.bond_strain_max, self.strain_bound, accuracy)
@@ -51,7 +51,8 @@ class Checks:
                 f"check failed: beads overlap until the mobility is not positive definite (smallest eigenvalue "
                 f"{self.least_mobility:.3g}); {OVERLAP_REMEDY}"
             )
-        self._bound("energy imbalance", self.energy_imbalance, self.energy_bound, accuracy)
+        doubt = ", or is an energy(x) of yours not that of its force(x)?" if own_effects else ""
+        self._bound("energy imbalance", self.energy_imbalance, self.energy_bound, accuracy + doubt)
 
     @staticmethod
     def _bound(name: str, value: float | None, bound: float | None, advice: str) -> None:

@@ -10,6 +10,7 @@ import hashlib
 import importlib.util
 import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -32,11 +33,10 @@ class _OwnEffect:
 
     def _value(self, x: Positions) -> Positions:
         value = _asked(self._name, self._function, x)
-        if value.shape != x.shape or not np.isfinite(value).all():
-            raise NumericalError(
-                f"own: {self._name} returned shape {value.shape} or a number that is not finite; "
-                f"return finite numbers of shape {x.shape}"
-            )
+        what = f"shape {value.shape}" if value.shape != x.shape else ""
+        if what or not np.isfinite(value).all():
+            what = what or "a number that is not finite"
+            raise NumericalError(f"own: {self._name} returned {what}; return finite numbers of shape {x.shape}")
         return value
 
     def add_jacobian(self, x: Positions, jac: Matrix) -> None:
@@ -91,7 +91,9 @@ def load_own(own: Own) -> OwnForce | OwnFlow:
     module = sys.modules[name] = importlib.util.module_from_spec(spec)  # where a dataclass looks for its module
     try:
         spec.loader.exec_module(module)
-        effect = getattr(module, own.effect)(**(own.parameters or {}))
+        effect = _class_of(module, own)(**(own.parameters or {}))
+    except InputError:
+        raise
     except Exception as error:
         why = f"{type(error).__name__}: {error}".splitlines()[0]
         raise InputError(f"own: cannot make {own.effect!r} from {own.file!r} ({why})") from None
@@ -102,3 +104,11 @@ def load_own(own: Own) -> OwnForce | OwnFlow:
     if found:
         raise InputError(f"own.effect: {own.effect!r} has both force(x) and velocity(x); make it two classes")
     raise InputError(f"own.effect: {own.effect!r} has neither force(x) nor velocity(x); write one of them")
+
+
+def _class_of(module: ModuleType, own: Own) -> type:
+    """The class of that name; raises InputError with the names there are."""
+    if own.effect not in vars(module):
+        there = ", ".join(name for name, value in vars(module).items() if isinstance(value, type)) or "no class"
+        raise InputError(f"own.effect: {own.effect!r} is not in {own.file!r}, but {there}; give the name of a class")
+    return getattr(module, own.effect)
