@@ -35,6 +35,7 @@ $(READY): envs/requirements.lock pyproject.toml
 	$(BIN)/pip install -qq "$$($(BIN)/python -c 'import tomllib; print(next(d for d in tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]["train"] if d.startswith("torch==")))')"
 	$(BIN)/pip install -qq --no-deps --no-build-isolation --editable .
 	touch $(READY)
+	@echo 'The environment is made. To use it: . .venv/bin/activate'
 
 # Writes envs/requirements.lock anew from pyproject.toml: newest versions that fit.
 lock: environment

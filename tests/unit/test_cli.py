@@ -8,6 +8,7 @@ import sys
 import numpy as np
 import pytest
 
+import sedfiber
 from sedfiber import Scene, read_trajectory, simulate, steady_state
 from sedfiber.cli import COMMANDS, STEPS, THREADS, TOOLS, main
 
@@ -138,8 +139,34 @@ def test_steady_finds_the_unstable_w(capsys):
     assert (values["stable_in_plane"], values["stable_in_volume"]) == (False, False)
     assert values["in_plane_rate"] == pytest.approx(0.0809, abs=1e-4)
     assert status_of(["steady", "--B", "10000", "--branch", "W"]) == 0
-    lines = dict(line.split() for line in capsys.readouterr().out.splitlines())
+    lines = dict(line.split()[:2] for line in capsys.readouterr().out.splitlines())
     assert lines == {key: str(value) for key, value in values.items()}
+
+
+def test_steady_writes_the_shape_as_a_scene_takes_it(tmp_path, capsys):
+    """Every digit: a fiber that starts in it stays."""
+    path = tmp_path / "u.csv"
+    assert status_of(["steady", "--B", "1000", "--n-beads", "11", "-o", path]) == 0
+    assert np.array_equal(np.loadtxt(path, delimiter=","), steady_state(1000, 11).positions)
+    words = ["simulate", "--B", "1000", "--theta0", "0", "--n-beads", "11", "--shape", path, "--t-end", "5"]
+    assert status_of([*words, "-o", tmp_path / "x.parquet"]) == 0
+    run = read_trajectory(tmp_path / "x.parquet")
+    assert np.abs(run.shape[-1] - run.shape[0]).max() < 1e-8
+
+
+def test_a_run_says_when_it_settled(tmp_path, capsys):
+    """The first line; one that was cut off before says nothing of it."""
+    words = ["simulate", "--B", "1000", "--theta0", "0.7854", "--n-beads", "11", "-o", tmp_path / "x.parquet"]
+    assert status_of(words) == 0
+    settled = read_trajectory(tmp_path / "x.parquet").settling_time
+    assert capsys.readouterr().out.splitlines()[0] == f"settled to the U at t = {settled:.4g} a/U_s"
+    assert status_of([*words, "--t-end", "2"]) == 0
+    assert "settled" not in capsys.readouterr().out
+
+
+def test_version(capsys):
+    assert status_of(["--version"]) == 0
+    assert capsys.readouterr().out == f"sedfiber {sedfiber.__version__}\n"
 
 
 @pytest.mark.parametrize(
@@ -160,6 +187,7 @@ def test_steady_prints_the_same_for_people(capsys):
     assert status_of(["steady", "--B", "1000"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert {"B", "velocity", "height", "end_to_end"} <= {line.split()[0] for line in lines}
+    assert {line.split()[0] for line in lines if line.endswith(" U_s")} == {"velocity", "residual"}
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ from sedfiber import Numerics, Scene, Trajectory, read_trajectory, simulate, wri
 from sedfiber.cli import main
 from sedfiber.commands.plot import title_of
 from sedfiber.comparison import compare
+from sedfiber.forecasting import load_plain_model
 from sedfiber.learning.measures import forecast_error
 
 
@@ -145,6 +146,22 @@ def test_a_title_tells_of_each_fiber():
     assert told([]) == told([{}, {"place": [40, 0]}]) == one
     assert told([{}, {"place": [40, 0], "B": 2000, "theta0": -0.1}]) == f"{one}; {other}"
     assert told([{"place": [40 * k, 0], "B": 1000 + k} for k in range(3)]) == "3 different fibers"
+
+
+def test_a_title_tells_what_acts_beside_the_studys_effects():
+    """And what of them does not."""
+    flow = {"name": "shear", "rate": 0.1}
+    run = simulate(Scene(1000, 0.5, 5, gravity=None, flow=flow, contact={}), t_end=1.0)
+    assert title_of(run).endswith("°), no gravity, shear flow, contact")
+    gradient = {"gradient": [[0, 0.1], [0, 0]]}
+    assert title_of(simulate(Scene(1000, 0.5, 5, flow=gradient), t_end=1.0)).endswith("°), a linear flow")
+
+
+def test_a_title_holds_what_a_forecast_was_warned_of():
+    far = load_plain_model().settle(50000, 1.5, t_end=1.0)
+    first, *doubts = title_of(far).split("\n")
+    assert first.startswith("forecast: ") and " ".join(doubts).startswith("not to be relied on: B=50000, theta0=1.5 is")
+    assert max(map(len, doubts)) <= 110
 
 
 def test_what_cannot_be_drawn_is_one_line(fall, tmp_path, capsys):

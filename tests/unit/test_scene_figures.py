@@ -6,6 +6,7 @@ import pytest
 
 from sedfiber import Scene, simulate, write_trajectory
 from sedfiber.cli import main
+from sedfiber.figures.scene import draw_scene
 from sedfiber.numerics import Numerics
 
 KINDS = {
@@ -34,6 +35,29 @@ def test_every_kind_of_scene_is_drawn_twice_alike(kind, tmp_path):
     first = draw(tmp_path, run)
     assert first[0].startswith(b"<?xml") and first[1].startswith(b"\x89PNG")
     assert draw(tmp_path, run) == first
+
+
+def legend_of(figure):
+    """The words of a figure's legend."""
+    return [text.get_text() for text in figure.legends[0].get_texts()]
+
+
+def test_only_what_is_drawn_stands_in_the_legend():
+    """A planar fall has no extent along z, though round-off may have left some; a run that leaves the plane has one."""
+    run = simulate(Scene(1000, 0.5, 7), Numerics(t_end=3))
+    run.positions[..., 2] += 1e-15 * np.arange(7)
+    figure = draw_scene(run, "")
+    assert legend_of(figure) == ["fiber", "extent along x", "extent along y"]
+    assert {axes.get_yscale() for axes in figure.axes} == {"linear"}
+    leaving = simulate(Scene(1000, 0.5, 7, **KINDS["volume"]), Numerics(t_end=3))
+    assert legend_of(draw_scene(leaving, ""))[-1] == "extent along z"
+
+
+def test_growth_out_of_the_plane_is_drawn_on_a_logarithmic_axis():
+    """From the least extent there was."""
+    run = simulate(Scene(1000, 0.5, 7, **KINDS["volume"]), Numerics(t_end=3))
+    run.positions[..., 2] *= np.geomspace(1e-3, 1.0, len(run.t))[:, None]
+    assert "log" in {axes.get_yscale() for axes in draw_scene(run, "").axes}
 
 
 def test_a_run_of_one_sample_is_drawn(tmp_path):

@@ -131,6 +131,12 @@ def test_a_touched_file_reruns_nothing(rerun, path):
     assert rerun.planned() == {}
 
 
+def test_a_number_written_another_way_reruns_nothing(rerun):
+    """1e-8 has no point, and is text to YAML."""
+    rerun.edit("config.yaml", "rtol: 1.0e-8, atol: 1.0e-8", "rtol: 1e-8, atol: 10e-9")
+    assert rerun.planned() == {}
+
+
 def test_an_edited_physics_module_reruns_simulations_and_all_that_follows(rerun):
     """Everything but nothing else: ten rules hang on the mechanics."""
     rerun.append("workflow/sedfiber/physics/bending.py", "# edited")

@@ -9,6 +9,7 @@ import warnings
 from importlib import import_module
 from typing import NoReturn
 
+import sedfiber
 from sedfiber.errors import SedfiberError
 
 # what a user calls
@@ -108,6 +109,9 @@ class OneLineParser(argparse.ArgumentParser):
 def main(argv: list[str] | None = None) -> int:
     """Run one command; returns the exit status: 0, 1 for a failure, 2 for bad usage."""
     argv = sys.argv[1:] if argv is None else argv
+    if argv == ["--version"]:
+        print(f"sedfiber {sedfiber.__version__}")
+        return 0
     _ask_for_one_thread()
     command = next((word for word in argv if not word.startswith("-")), None)
     warnings.filterwarnings("ignore", category=UserWarning, module="scipy.integrate")  # they become our errors

@@ -44,7 +44,7 @@ NUMERICS = {
     "atol": ("a", "absolute tolerance of a step, from 1e-13 to 0.1"),
     "interval": ("a/U_s", "sample spacing"),
     "max_time": ("a/U_s", "by when a run without t_end must have settled"),
-    "t_end": ("a/U_s", "end of the run; none is when the fiber has settled"),
+    "t_end": ("a/U_s", "end of the run, whose last sample is at or before it; none is when the fiber has settled"),
     "estimate_error": ("-", "repeat the run at tighter tolerances and record how far the two differ"),
 }
 

@@ -29,7 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "starts",
         nargs="?",
         type=Path,
-        help="CSV or Parquet with a row for each fiber: B, theta0 and, if needed, shape (a file), name",
+        help="CSV or Parquet with a row for each fiber: B, theta0 and, if needed, shape (a file, looked for beside the "
+        "table), name",
     )
     parser.add_argument("--B", help="elasto-gravitational number")
     parser.add_argument("--theta0", help="initial inclination to the x-axis, radians")
@@ -37,7 +38,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", type=Path, required=True, help="Parquet file to write; a folder for the files of a table"
     )
     parser.add_argument("--model", type=Path, default=SHIPPED, help="model folder (the model that comes with sedfiber)")
-    parser.add_argument("--t-end", help="end of the forecast, a/U_s (when the fiber has settled)")
+    parser.add_argument(
+        "--t-end", help="end of the forecast, a/U_s: its last sample is at or before it (when the fiber has settled)"
+    )
     parser.add_argument("--interval", default=0.5, help="sample spacing, a/U_s (0.5)")
     parser.add_argument("--shape", type=Path, help="start shape, turned by theta0: .csv, .npy, .parquet (straight)")
     parser.add_argument("--strict", action="store_true", help="refuse what would only be warned of")

@@ -2,6 +2,7 @@
 
 import argparse
 import math
+import textwrap
 from pathlib import Path
 
 from sedfiber.atomic_file import require_writable
@@ -13,6 +14,7 @@ from sedfiber.trajectory_file import read_trajectory
 from sedfiber.validation import refused
 
 SUFFIXES = (".png", ".svg")
+_TITLE_WIDTH = 110  # letters
 _MOST_SHOWN = 2  # different fibers, whose ℬ and θ₀ fit into a title
 
 
@@ -39,14 +41,29 @@ def run(args: argparse.Namespace) -> None:
 
 
 def title_of(trajectory: Trajectory) -> str:
-    """What the file says of itself: how it was made, ℬ and θ₀ of each fiber, or how many, and the settling time."""
+    """What the file says of itself: how it was made, ℬ and θ₀ of each fiber, or how many, what acts on it beside the
+    study's effects, the settling time, and what a forecast was warned of.
+    """
     facts, scene = trajectory.metadata, trajectory.metadata["scene"]
     made = "forecast" if facts.get("kind") == "forecast" else "simulated"
     fibers = list(dict.fromkeys(_fiber_words(scene | fiber) for fiber in scene.get("fibers") or [{}]))
     shown = "; ".join(fibers) if len(fibers) <= _MOST_SHOWN else f"{len(fibers)} different fibers"
     settled = trajectory.settling_time
     end = "" if settled is None else f", settled at t = {settled:.4g}"
-    return f"{made}: {shown}{end}"
+    title = f"{made}: {shown}{_effects(scene)}{end}"
+    warnings = facts.get("model", {}).get("warnings", [])
+    doubts = textwrap.wrap(f"not to be relied on: {'; '.join(warnings)}", _TITLE_WIDTH) if warnings else []
+    return "\n".join([title, *doubts])
+
+
+def _effects(scene: dict) -> str:
+    """What the scene has beside the study's effects, or lacks of them."""
+    flow = scene.get("flow", {})
+    words = [f"no {key}" for key in ("gravity", "stretching", "bending") if scene.get(key, "") is None]
+    words += [flow.get("name", "a linear") + " flow"] if flow else []
+    words += [key for key in ("wall", "contact", "noise") if key in scene]
+    words += [own["effect"] for own in scene.get("own", [])]
+    return "".join(f", {word}" for word in words)
 
 
 def _fiber_words(values: dict) -> str:

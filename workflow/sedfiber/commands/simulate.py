@@ -14,7 +14,7 @@ from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
 from sedfiber.simulation import simulate
 from sedfiber.trajectory_file import write_trajectory
 
-_OPTIONS = ("B", "theta0", "n_beads", "space", "hydrodynamics", "tilt", "seed")
+_OPTIONS = ("B", "theta0", "n_beads", "space", "hydrodynamics", "shape", "tilt", "seed")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -28,9 +28,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--n-beads", help=f"odd number of beads ({Scene.n_beads})")
     parser.add_argument("--space", help=f"{' or '.join(SPACES)} ({Scene.space})")
     parser.add_argument("--hydrodynamics", help=f"{' or '.join(HYDRODYNAMICS)} ({Scene.hydrodynamics})")
+    parser.add_argument("--shape", help="start shape, turned by θ0: rest, or a file: .csv, .npy, .parquet (straight)")
     parser.add_argument("--tilt", help=f"replaces θ0 = 0, radians; 0 for exact symmetry ({Scene.tilt:g})")
     parser.add_argument("--seed", help=f"draws the sign of the tilt, disturbance and noise ({Scene.seed})")
-    parser.add_argument("--t-end", help="end of the run, a/U_s (when the fiber has settled)")
+    parser.add_argument(
+        "--t-end", help="end of the run, a/U_s: its last sample is at or before it (when the fiber has settled)"
+    )
     names = ", ".join((*INTEGRATORS, STOCHASTIC))
     parser.add_argument("--integrator", help=f"{names} ({DEFAULT_INTEGRATOR}; with noise {STOCHASTIC})")
     parser.add_argument("--rtol", help=f"relative tolerance ({Numerics.rtol:g})")
@@ -53,6 +56,8 @@ def run(args: argparse.Namespace) -> None:
     write_trajectory(labelled, args.output)
     if trajectory.metadata["settled_to"] == "W":
         print("settled to the W, which is unstable to left-right asymmetry, and not to the terminal U")
+    elif trajectory.settling_time is not None:
+        print(f"settled to the U at t = {trajectory.settling_time:.4g} a/U_s")
     for verdict in trajectory.metadata["audit"]:
         print(verdict["words"])
 
@@ -60,6 +65,8 @@ def run(args: argparse.Namespace) -> None:
 def _requested(args: argparse.Namespace, index: int | None) -> tuple[Scene, Numerics]:
     """The file's scene with the options' values, or the options' alone."""
     what = _given(args, _OPTIONS)
+    if what.get("shape") not in (None, "rest", "straight"):
+        what["shape"] = {"file": what["shape"]}
     if index is not None:
         what["theta0"] = angle_of(index)
     how = _given(args, Numerics.__dataclass_fields__)

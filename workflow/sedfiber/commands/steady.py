@@ -2,10 +2,21 @@
 
 import argparse
 import json
+from pathlib import Path
 
+from sedfiber.atomic_file import require_writable, write_text
 from sedfiber.physics.spectrum import spectrum
 from sedfiber.physics.steady import BRANCHES, SteadyState, terminal_state
 from sedfiber.scene import HYDRODYNAMICS, Scene
+
+UNITS = {
+    "velocity": "U_s",
+    "height": "a",
+    "end_to_end": "a",
+    "residual": "U_s",
+    "in_plane_rate": "U_s/a",
+    "out_of_plane_rate": "U_s/a",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -19,17 +30,28 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--branch", default="U", help=f"{' or '.join(BRANCHES)}, which is unstable (U)")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        help="CSV file for the shape: x, y, z of each bead in a, as scenes take it",
+    )
 
 
 def run(args: argparse.Namespace) -> None:
     """Solve and print: lengths in a, speeds in U_s, growth rates in U_s/a."""
     scene = Scene(args.B, 0.0, args.n_beads, hydrodynamics=args.hydrodynamics)
-    summary = _summary(terminal_state(scene, args.branch), scene)
+    if args.output is not None:
+        require_writable(args.output)
+    state = terminal_state(scene, args.branch)
+    summary = _summary(state, scene)
+    if args.output is not None:
+        write_text(args.output, "".join(f"{x!r},{y!r},{z!r}\n" for x, y, z in state.positions.tolist()))
     if args.json:
         print(json.dumps(summary))
         return
     for key, value in summary.items():
-        print(f"{key:20s} {value}")
+        print(f"{key:20s} {value} {UNITS.get(key, '')}".rstrip())
 
 
 def _summary(state: SteadyState, scene: Scene) -> dict:

@@ -15,7 +15,9 @@ FIBER_COLORS = (BLUE, VERMILION, ORANGE, PURPLE)
 AXIS_STYLES = dict(zip("xyz", ("-", "--", ":"), strict=True))
 _MARGIN = 4.0  # a, around the beads
 _STILL = 2.0  # fiber lengths: a run that stays within these is drawn in one fixed frame
-_LEAST_EXTENT = 1e-8  # of L, the lower end of the logarithmic axis
+_LEAST_EXTENT = 1e-8  # of L: what reaches less far is flat up to rounding
+_DECADES = 100.0  # from the least to the largest extent out of the plane: more takes a logarithmic axis
+_FLATTEST = 0.55  # height over width of a frame that still has room for the words beside it
 _FRAME = PAGE_WIDTH / SNAPSHOTS  # inches
 
 
@@ -48,6 +50,7 @@ class Frames:
             self.middle = np.broadcast_to(still, self.middle.shape)
         self.seen = flat - self.middle[:, None, None]
         self.reach = np.maximum(np.abs(self.seen).max(axis=(0, 1, 2)) + _MARGIN, 0.15 * length)
+        self.reach[1] = max(self.reach[1], _FLATTEST * self.reach[0])
         self.shape = float(self.reach[1] / self.reach[0])
         if self.shape > 1.6:  # no frame is drawn taller than that
             self.reach[0], self.shape = self.reach[1] / 1.6, 1.6
@@ -92,24 +95,43 @@ def draw_wall(axes: Axes, wall: dict | None, view: tuple) -> None:
 
 def _draw_history(left: Axes, right: Axes, run: Trajectory) -> None:
     """Left: end-to-end distance, and the mean height where it changes; right: extents along the axes."""
+    _draw_ends(left, run)
+    _draw_extents(right, run)
+    for axes in (left, right):
+        axes.set_xlabel("time / (a/U$_s$)")
+    place_legend(left.figure, left, right, columns=5)
+
+
+def _draw_ends(axes: Axes, run: Trajectory) -> None:
     fibers = run.fibers
-    length = 2.0 * run.n_beads
     for k, color in zip(range(fibers.shape[1]), FIBER_COLORS * fibers.shape[1], strict=False):
         name = f"fiber {k + 1}" if fibers.shape[1] > 1 else "fiber"
-        ends = np.linalg.norm(fibers[:, k, -1] - fibers[:, k, 0], axis=-1) / length
-        left.plot(run.t, ends, color=color, label=name)
-        for axis, style in AXIS_STYLES.items():
-            extent = np.ptp(fibers[:, k, :, "xyz".index(axis)], axis=-1) / length
-            if extent.max() > _LEAST_EXTENT:
-                right.plot(run.t, np.maximum(extent, _LEAST_EXTENT), color=color, linestyle=style)
-    left.set(xlabel="time / (a/U$_s$)", ylabel="end-to-end distance / L", ylim=(0.0, 1.05))
-    right.set(xlabel="time / (a/U$_s$)", ylabel="extent / L", yscale="log")
+        ends = np.linalg.norm(fibers[:, k, -1] - fibers[:, k, 0], axis=-1) / (2.0 * run.n_beads)
+        axes.plot(run.t, ends, color=color, label=name)
+    axes.set(ylabel="end-to-end distance / L", ylim=(0.0, 1.05))
     height = fibers.mean(axis=(1, 2))[:, 1]
     if np.ptp(height) > 1.0:
-        other = left.twinx()
+        other = axes.twinx()
         other.grid(False)
-        other.plot(run.t, height, color=BLACK, linewidth=0.8, linestyle=(0, (1, 1)))
-        other.set_ylabel("mean height / a (dotted)")
-    for axis in "xyz" if fibers[..., 2].any() else "xy":
-        right.add_line(Line2D([], [], color=GREY, linestyle=AXIS_STYLES[axis], label=f"extent along {axis}"))
-    place_legend(left.figure, left, right, columns=5)
+        other.plot(run.t, height, color=BLACK, linewidth=0.8, linestyle="-.")
+        other.set_ylabel("mean height / a (dash-dotted)")
+
+
+def _draw_extents(axes: Axes, run: Trajectory) -> None:
+    """Along each axis that a fiber reaches along; logarithmic where it leaves the plane from next to nothing."""
+    extents = np.ptp(run.fibers, axis=2) / (2.0 * run.n_beads)  # (T, fibers, 3)
+    out_of_plane = extents[..., 2][extents[..., 2] > _LEAST_EXTENT]
+    floor = 0.0
+    if out_of_plane.size and out_of_plane.max() > _DECADES * out_of_plane.min():
+        floor = out_of_plane.min()
+        axes.set_yscale("log")
+    for i, (axis, style) in enumerate(AXIS_STYLES.items()):
+        reaching = extents[..., i].max(axis=0) > _LEAST_EXTENT
+        for k in np.flatnonzero(reaching):
+            color = FIBER_COLORS[k % len(FIBER_COLORS)]
+            axes.plot(run.t, np.maximum(extents[:, k, i], floor), color=color, linestyle=style)
+        if reaching.any():
+            axes.add_line(Line2D([], [], color=GREY, linestyle=style, label=f"extent along {axis}"))
+    axes.set_ylabel("extent / L")
+    if not floor:
+        axes.set_ylim(bottom=0.0)
