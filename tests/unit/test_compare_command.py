@@ -106,6 +106,18 @@ def test_what_cannot_be_compared_is_one_line(command, fall):
         assert status == 1 and out == "" and err.count("\n") == 1 and words in err and not table.exists()
 
 
+def test_the_error_is_drawn_where_the_output_is_a_picture(fall, steeper, tmp_path):
+    """Twice alike; one without any error too."""
+    for run, name in ((fall, "a"), (steeper, "b")):
+        write_trajectory(run, tmp_path / f"{name}.parquet")
+    pictures = []
+    for other, name in (("b", "one.png"), ("b", "other.png"), ("a", "none.svg")):
+        words = [tmp_path / "a.parquet", tmp_path / f"{other}.parquet", "-o", tmp_path / name]
+        assert main(["compare", *map(str, words)]) == 0
+        pictures.append((tmp_path / name).read_bytes())
+    assert pictures[0] == pictures[1] and pictures[0].startswith(b"\x89PNG") and pictures[2].startswith(b"<?xml")
+
+
 @pytest.mark.parametrize("suffix", ["png", "svg"])
 def test_any_trajectory_is_drawn_twice_alike(fall, tmp_path, suffix):
     """By the suffix of the picture's name."""

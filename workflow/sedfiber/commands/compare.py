@@ -8,6 +8,8 @@ import pandas as pd
 
 from sedfiber.atomic_file import require_writable
 from sedfiber.comparison import Comparison, compare, summary
+from sedfiber.figures.comparison import draw_comparison
+from sedfiber.figures.style import PICTURES, save_picture
 from sedfiber.tables import write_csv
 from sedfiber.trajectory import Trajectory
 from sedfiber.trajectory_file import read_trajectory
@@ -17,18 +19,26 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Both trajectories, and where E(t) goes."""
     parser.add_argument("truth", type=Path, help="trajectory that is taken for true")
     parser.add_argument("other", type=Path, help="trajectory that is compared with it, such as a forecast")
-    parser.add_argument("-o", "--output", type=Path, help="CSV file to write: t, E, E_shape, E_pos (none)")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        help="CSV file to write, with t, E, E_shape, E_pos, or a picture, .png or .svg (none)",
+    )
 
 
 def run(args: argparse.Namespace) -> None:
-    """Compare, print a few lines, write E(t) where it is asked for."""
+    """Compare, print a few lines, write or draw E(t) where it is asked for."""
     if args.output is not None:
         require_writable(args.output)
     truth, other = read_trajectory(args.truth), read_trajectory(args.other)
     compared = compare(truth, other)
     for line in _lines(truth, other, compared):
         print(line)
-    if args.output is not None:
+    if args.output is not None and args.output.suffix in PICTURES:
+        title = f"{args.other.name} against {args.truth.name}"
+        save_picture(lambda: draw_comparison(compared, title), args.output)
+    elif args.output is not None:
         error = compared.error
         columns = {"t": compared.t, "E": error.total, "E_shape": error.shape, "E_pos": error.position}
         write_csv(pd.DataFrame(columns), args.output)
