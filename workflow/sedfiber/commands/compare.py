@@ -8,8 +8,6 @@ import pandas as pd
 
 from sedfiber.atomic_file import require_writable
 from sedfiber.comparison import Comparison, compare, summary
-from sedfiber.figures.comparison import draw_comparison
-from sedfiber.figures.style import PICTURES, save_picture
 from sedfiber.tables import write_csv
 from sedfiber.trajectory import Trajectory
 from sedfiber.trajectory_file import read_trajectory
@@ -20,10 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("truth", type=Path, help="trajectory that is taken for true")
     parser.add_argument("other", type=Path, help="trajectory that is compared with it, such as a forecast")
     parser.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        help="CSV file to write, with t, E, E_shape, E_pos, or a picture, .png or .svg (none)",
+        "-o", "--output", type=Path, help="CSV file with t, E, E_shape and E_pos, or a picture, .png or .svg (none)"
     )
 
 
@@ -35,13 +30,22 @@ def run(args: argparse.Namespace) -> None:
     compared = compare(truth, other)
     for line in _lines(truth, other, compared):
         print(line)
-    if args.output is not None and args.output.suffix in PICTURES:
-        title = f"{args.other.name} against {args.truth.name}"
-        save_picture(lambda: draw_comparison(compared, title), args.output)
-    elif args.output is not None:
-        error = compared.error
-        columns = {"t": compared.t, "E": error.total, "E_shape": error.shape, "E_pos": error.position}
-        write_csv(pd.DataFrame(columns), args.output)
+    if args.output is not None:
+        write = _draw if args.output.suffix in (".png", ".svg") else _write
+        write(compared, args)
+
+
+def _write(compared: Comparison, args: argparse.Namespace) -> None:
+    error = compared.error
+    columns = {"t": compared.t, "E": error.total, "E_shape": error.shape, "E_pos": error.position}
+    write_csv(pd.DataFrame(columns), args.output)
+
+
+def _draw(compared: Comparison, args: argparse.Namespace) -> None:
+    from sedfiber.figures.comparison import draw_comparison  # Matplotlib: only for those who ask
+    from sedfiber.figures.style import save_picture
+
+    save_picture(lambda: draw_comparison(compared, f"{args.other.name} against {args.truth.name}"), args.output)
 
 
 def _lines(truth: Trajectory, other: Trajectory, compared: Comparison) -> list[str]:

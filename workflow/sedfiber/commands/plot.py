@@ -8,11 +8,12 @@ from pathlib import Path
 from sedfiber.atomic_file import require_writable
 from sedfiber.errors import InputError
 from sedfiber.figures.scene import draw_scene
-from sedfiber.figures.style import B_SYMBOL, PICTURES, save_picture
+from sedfiber.figures.style import B_SYMBOL, save_picture
 from sedfiber.trajectory import Trajectory
 from sedfiber.trajectory_file import read_trajectory
 from sedfiber.validation import refused
 
+SUFFIXES = (".png", ".svg")
 _TITLE_WIDTH = 110  # letters
 _MOST_SHOWN = 2  # different fibers, whose ℬ and θ₀ fit into a title
 
@@ -28,8 +29,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(args: argparse.Namespace) -> None:
     """Refuse unusable outputs and files that tell no scene, then draw and write."""
     output = Path(f"{args.trajectory.stem}.png") if args.output is None else args.output
-    if output.suffix not in PICTURES:
-        raise refused("output", str(output), f"a name that ends in {' or '.join(PICTURES)}")
+    if output.suffix not in SUFFIXES:
+        raise refused("output", str(output), f"a name that ends in {' or '.join(SUFFIXES)}")
     require_writable(output)
     trajectory = read_trajectory(args.trajectory)
     if "space" not in trajectory.metadata.get("scene", {}):

@@ -38,7 +38,6 @@ SEQUENTIAL = ListedColormap(colormaps["viridis"](np.linspace(0.0, 0.9, 256)), "s
 B_SYMBOL = r"$\mathcal{B}$"
 SET_TITLES = {"A": f"test set A: trained {B_SYMBOL}, new θ₀", "B": f"test set B: new {B_SYMBOL}, new θ₀"}
 
-PICTURES = (".png", ".svg")  # what a figure can be saved as
 WITHOUT_DATE = {"svg": {"Date": None, "Creator": None}, "png": {"Software": None}}
 
 RC_PARAMS = {
