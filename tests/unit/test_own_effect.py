@@ -1,4 +1,4 @@
-"""Effects that a user brings: the page about them as it stands, and what is done with one that is wrong."""
+"""Effects that a user brings: those of the page about them, and what is done with one that is wrong."""
 
 import hashlib
 import re
@@ -23,7 +23,6 @@ BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), 
 FILES = {body.splitlines()[0].removeprefix("# "): body for kind, body in BLOCKS if kind in ("python", "yaml")}
 COMMANDS = [line.removeprefix("$ ") for kind, body in BLOCKS if kind == "console"
             for line in body.splitlines() if line.startswith("$ ")]  # fmt: skip
-NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 ANALYTIC = """
 import numpy as np
 
@@ -116,46 +115,22 @@ SCENE = "B: 100\ntheta0: 0.7\nn_beads: 5\nnumerics: {t_end: 20}\nown:\n- "
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory):
-    """A folder with the page's files in which its commands have been run, in order; and what each said."""
-    folder, said = tmp_path_factory.mktemp("page"), {}
+    """A folder with the page's files in which its commands have been run, in order."""
+    folder = tmp_path_factory.mktemp("page")
     for name, body in FILES.items():
         (folder / name).write_text(body, encoding="utf-8")
     for command in COMMANDS:
         program, *words = command.split()
         argv = [sys.executable, *(["-m", "sedfiber"] if program == "sedfiber" else []), *words]
-        said[command] = subprocess.run(argv, cwd=folder, capture_output=True, text=True, timeout=120, check=False)
-    return folder, said
-
-
-def shown(command):
-    """What the page shows below a command; None where it shows nothing."""
-    body = next(body for kind, body in BLOCKS if kind == "console" and f"$ {command}\n" in body)
-    below = body.split(f"$ {command}\n")[1].split("$ ")[0]
-    return below.splitlines() if len(body.splitlines()) > body.count("$ ") else None
-
-
-def test_the_page_has_files_and_commands():
-    """Every block names its file in the first line, or is a list of commands."""
-    assert {"trap.py", "trap.yaml", "look.py", "check_trap.py", "cells.py", "cells.yaml"} == set(FILES)
-    assert len(COMMANDS) == 5 and {kind for kind, _ in BLOCKS} == {"python", "yaml", "console"}
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_commands_say_what_the_page_shows(page, command):
-    """The same words; numbers to a percent, or to 1e-6 where they are round-off."""
-    run, lines = page[1][command], shown(command)
-    assert (run.returncode, run.stderr) == (0, "")
-    if lines is not None:
-        assert [NUMBER.sub("#", line) for line in run.stdout.splitlines()] == [NUMBER.sub("#", line) for line in lines]
-        numbers = [[float(one) for one in NUMBER.findall(text)] for text in (run.stdout, "\n".join(lines))]
-        assert_allclose(*numbers, rtol=0.01, atol=1e-6)
+        subprocess.run(argv, cwd=folder, capture_output=True, timeout=120, check=True)
+    return folder
 
 
 def test_the_trap_carries_the_fiber(page):
     """At the end the spring pulls with the weight of 31 beads and nothing moves: all forces of the NumPy reference
     balance on each bead, with no more than the round-off of the settling left; the fiber hangs upright.
     """
-    run, scene = read_trajectory(page[0] / "trap.parquet"), read_scene(page[0] / "trap.yaml")[0]
+    run, scene = read_trajectory(page / "trap.parquet"), read_scene(page / "trap.yaml")[0]
     x = run.positions[-1, :, :2]
     assert_allclose(x[15], [0.0, -31 / 0.5], rtol=0, atol=1e-5)
 
@@ -170,7 +145,7 @@ def test_the_trap_carries_the_fiber(page):
 
 def test_a_bead_stays_on_its_streamline(page):
     """ψ is constant along the path of a single bead, and the path starts with the eddy's velocity and goes round."""
-    bead, fiber = (read_trajectory(page[0] / f"{name}.parquet") for name in ("bead", "cells"))
+    bead, fiber = (read_trajectory(page / f"{name}.parquet") for name in ("bead", "cells"))
     k, x = np.pi / 60, bead.positions[:, 0, :2]
     assert_allclose(np.prod(np.sin(k * x), axis=1), np.sin(10 * k), rtol=0, atol=1e-6)
     start = (x[1] - x[0]) / bead.t[1]
