@@ -21,6 +21,7 @@ GROUPS = {
     "test_document_commands.py": "finished study",
     "test_scenes.py": "scenes",
     "test_explorer.py": "explorer",
+    "test_explorer_input.py": "explorer",
     "test_explorer_shipped.py": "shipped explorer",
     "test_installed.py": "installed",
 }

@@ -1,13 +1,17 @@
-"""A finished tiny study, made once, and copies of it to change and rerun."""
+"""A finished tiny study, made once, and copies of it to change and rerun; and the page of a tiny explorer."""
 
 import re
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from explorer_page import make
 from workflow_helpers import REPOSITORY, clean_environment
+
+from sedfiber.dataset_file import write_dataset
 
 TINY = Path(__file__).with_name("tiny.yaml")
 
@@ -88,3 +92,27 @@ def full(tmp_path) -> Checkout:
 def check_out_tiny():
     """A function that copies the tiny study to a folder."""
     return lambda folder: check_out(folder, TINY)
+
+
+@pytest.fixture(scope="session")
+def falls():
+    """Two falls of the training set, one of test set B."""
+    from sedfiber.hard_cases.training_cases import simulated  # torch: most tests of this folder do without
+
+    return [*simulated(7, (200.0,), (0, 10)), *(replace(fall, split="B") for fall in simulated(7, (300.0,), (7,)))]
+
+
+@pytest.fixture(scope="session")
+def dataset(falls, tmp_path_factory) -> Path:
+    """Their file."""
+    path = tmp_path_factory.mktemp("dataset") / "falls.parquet"
+    write_dataset(falls, path)
+    return path
+
+
+@pytest.fixture(scope="session")
+def explorer(trained_model, dataset, tmp_path_factory) -> Path:
+    """The page's file."""
+    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
+    make(trained_model, dataset, output=path)
+    return path

@@ -1,18 +1,12 @@
 """The explorer in a real browser: its forecasts are Python's, and it is used by keyboard, offline and on a phone."""
 
-import shutil
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import torch
 from browser import opened_page
 from explorer_page import CLOSE, distance, forecast, make
 
-from sedfiber.dataset_file import write_dataset
-from sedfiber.errors import InputError
 from sedfiber.forecasting import load_model
-from sedfiber.hard_cases.training_cases import simulated
 from sedfiber.learning.autoencoder import Autoencoder
 from sedfiber.learning.forecast import ForecastModel
 from sedfiber.learning.measures import forecast_error
@@ -36,33 +30,11 @@ DARK = """canvas => {
 
 
 @pytest.fixture(scope="module")
-def falls():
-    """Two falls of the training set, one of test set B."""
-    return [*simulated(7, (200.0,), (0, 10)), *(replace(fall, split="B") for fall in simulated(7, (300.0,), (7,)))]
-
-
-@pytest.fixture(scope="module")
-def dataset(falls, tmp_path_factory):
-    """Their file."""
-    path = tmp_path_factory.mktemp("dataset") / "falls.parquet"
-    write_dataset(falls, path)
-    return path
-
-
-@pytest.fixture(scope="module")
-def file(trained_model, dataset, tmp_path_factory):
-    """The page's file."""
-    path = tmp_path_factory.mktemp("explorer") / "explorer.html"
-    make(trained_model, dataset, output=path)
-    return path
-
-
-@pytest.fixture(scope="module")
-def page(file):
+def page(explorer):
     """The page as it comes, for a reader who has asked for little motion, so that nothing moves by itself."""
     with opened_page() as page:
         page.emulate_media(reduced_motion="reduce")
-        page.goto(file.as_uri())
+        page.goto(explorer.as_uri())
         yield page
 
 
@@ -246,64 +218,7 @@ def test_nothing_overflows_at_phone_width(page, start):
     page.set_viewport_size({"width": 1400, "height": 900})
 
 
-def test_nothing_is_asked_from_outside_and_nothing_fails(page, file):
+def test_nothing_is_asked_from_outside_and_nothing_fails(page, explorer):
     """After all of the above."""
-    assert page.asked == [file.as_uri()]
+    assert page.asked == [explorer.as_uri()]
     assert page.complaints == []
-
-
-def test_the_same_input_gives_the_same_bytes(file, trained_model, dataset, tmp_path):
-    make(trained_model, dataset, output=tmp_path / "again.html")
-    assert (tmp_path / "again.html").read_bytes() == file.read_bytes()
-
-
-def test_a_fall_outside_the_models_range_is_left_out_and_counted(falls, trained_model, tmp_path):
-    """A test set may go beyond the training; the page cannot."""
-    write_dataset([*falls, replace(falls[0], B=1000.0)], tmp_path / "falls.parquet")
-    make(trained_model, tmp_path / "falls.parquet", output=tmp_path / "explorer.html")
-    text = (tmp_path / "explorer.html").read_text(encoding="utf-8")
-    assert "Simulated falls: training 2, test set B 1; 1 outside that range are not shown." in " ".join(text.split())
-
-
-def broken(case: str, model, falls, folder) -> tuple:
-    """Model folder and data set with something wrong."""
-    write_dataset(falls, folder / "falls.parquet")
-    if case == "no model":
-        return folder, folder / "falls.parquet"
-    if case == "no curve":
-        shutil.copytree(model, folder / "model")
-        (folder / "model" / CURVE).unlink()
-        return folder / "model", folder / "falls.parquet"
-    if case == "no data set":
-        return model, folder / "missing.parquet"
-    changes = {
-        "other beads": {"positions": falls[0].positions[:, 1:-1]},
-        "outside the range": {"B": 1000.0},
-        "unknown split": {"split": "C"},
-        "not finite": {"positions": falls[0].positions * np.nan},
-        "out of the plane": {"positions": falls[0].positions + np.array([0.0, 0.0, 1.0])},
-    }
-    write_dataset([replace(falls[0], **changes[case])], folder / "falls.parquet")
-    return model, folder / "falls.parquet"
-
-
-@pytest.mark.parametrize(
-    "case, words",
-    [
-        ("no model", "holds no readable model"),
-        ("no curve", "solve_terminal_curve"),
-        ("no data set", "cannot read"),
-        ("other beads", "angle_index = 0 has 5 beads, the model 7"),
-        ("outside the range", "no fall is within the model's range"),
-        ("unknown split", "is of the split 'C'"),
-        ("not finite", "not finite"),
-        ("out of the plane", "leaves the plane"),
-    ],
-)
-def test_bad_input_is_refused_in_one_line(case, words, trained_model, falls, tmp_path):
-    """And nothing is written."""
-    output = tmp_path / "page" / "explorer.html"
-    output.parent.mkdir()
-    with pytest.raises(InputError, match=words) as refusal:
-        make(*broken(case, trained_model, falls, tmp_path), output=output)
-    assert "\n" not in str(refusal.value) and not list(output.parent.iterdir())
