@@ -1,6 +1,6 @@
 """Running a command as a shell would, and what it says when it must fail."""
 
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 
 
 def status_of(argv):

@@ -45,14 +45,14 @@ def trained_model(tmp_path_factory):
     """Folder of a forecast model of 7 beads, ℬ from 100 to 400, trained on simulations in under 10 s."""
     import torch  # the tests of the physics do without
 
-    from sedfiber.hard_cases.training_cases import simulated
-    from sedfiber.learning.forecast import ForecastModel
-    from sedfiber.learning.model_files import save_forecast_model
-    from sedfiber.learning.settings import AutoencoderSettings, NodeSettings
-    from sedfiber.learning.train_autoencoder import train_autoencoder
-    from sedfiber.learning.train_node import train_node
-    from sedfiber.terminal_curve import FILE as CURVE
-    from sedfiber.terminal_curve import TerminalCurve, write_terminal_curve
+    from sedfiber.reduced.model_files import save_forecast_model
+    from sedfiber.reduced.torch_forecast import ForecastModel
+    from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
+    from sedfiber.reduced.training.train_autoencoder import train_autoencoder
+    from sedfiber.reduced.training.train_node import train_node
+    from sedfiber.simulation.equilibria.terminal_curve import FILE as CURVE
+    from sedfiber.simulation.equilibria.terminal_curve import TerminalCurve, write_terminal_curve
+    from sedfiber.study.hard_cases.training_cases import simulated
 
     torch.set_num_threads(1)
     training = simulated(7, (100.0, 200.0, 400.0), (0, 5, 10, 15, 20))

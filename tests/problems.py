@@ -6,13 +6,14 @@ integrator asks of a system.  Add a problem to ``MOTIONS`` and every integrator 
 
 import numpy as np
 
-from sedfiber.physics.assembly import assemble
 from sedfiber.physics.frame import no_band
 from sedfiber.physics.free_draining import add_band
 from sedfiber.physics.gravity import Gravity
 from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.system import System
-from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
+from sedfiber.scene.assembly import assemble
+from sedfiber.scene.fields import HYDRODYNAMICS, SPACES
+from sedfiber.scene.scene import Scene
 
 SCENES = [(space, hydrodynamics) for space in SPACES for hydrodynamics in HYDRODYNAMICS]
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from sedfiber.hard_cases.listing import CASES
+from sedfiber.study.hard_cases.listing import CASES
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)

@@ -7,7 +7,7 @@ from scipy.integrate import quad, solve_ivp
 
 from problems import rms_distance
 from sedfiber import Numerics, Scene, simulate
-from sedfiber.physics.assembly import assemble
+from sedfiber.scene.assembly import assemble
 
 TIGHT = Numerics(rtol=1e-10, atol=1e-10, interval=0.5)
 

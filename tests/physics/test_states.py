@@ -8,14 +8,14 @@ import pytest
 
 from problems import rms_distance
 from sedfiber import NumericalError, Scene, simulate, steady_state
-from sedfiber.numerics import Numerics
-from sedfiber.physics.spectrum import spectrum
-from sedfiber.physics.steady import terminal_state
-from sedfiber.physics.vertical import vertical_rates, vertical_state
-from sedfiber.stability.branches import Vertical, trace_sections
-from sedfiber.stability.growth import measured_rate
-from sedfiber.stability.plane_stability import threshold
-from sedfiber.stability.states import disagreement, state_rows, threshold_rows
+from sedfiber.scene.numerics import Numerics
+from sedfiber.simulation.equilibria.branches import Vertical, trace_sections
+from sedfiber.simulation.equilibria.growth import measured_rate
+from sedfiber.simulation.equilibria.plane_stability import threshold
+from sedfiber.simulation.equilibria.spectrum import spectrum
+from sedfiber.simulation.equilibria.states import disagreement, state_rows, threshold_rows
+from sedfiber.simulation.equilibria.steady import terminal_state
+from sedfiber.simulation.equilibria.vertical import vertical_rates, vertical_state
 
 ENDS = (10.0, 100_000.0)
 GRID = np.geomspace(*ENDS, 13).tolist()

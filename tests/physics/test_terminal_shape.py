@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 import reference
 from problems import rms_distance, straight_chain
 from sedfiber import Scene, simulate, steady_state
-from sedfiber.physics.assembly import assemble
+from sedfiber.scene.assembly import assemble
 
 RIGID_ALONG, RIGID_ACROSS = 5.100541, 3.359089  # straight rigid chain of 31, issue 3 §3
 

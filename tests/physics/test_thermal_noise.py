@@ -15,9 +15,9 @@ from scipy.special import i0e, i1e
 import reference
 from problems import bent_chain
 from sedfiber import InputError, NumericalError, Numerics, Scene, simulate
-from sedfiber.physics.assembly import assemble
 from sedfiber.physics.integrators import StochasticMidpoint, Tolerances
 from sedfiber.physics.pair_mobility import PairMobility
+from sedfiber.scene.assembly import assemble
 
 MODULUS = 24.0  # ℰ of the chains below
 DIMS = {"plane": 2, "volume": 3}

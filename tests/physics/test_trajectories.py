@@ -11,7 +11,7 @@ import yaml
 import reference
 from problems import rms_distance
 from sedfiber import Numerics, Scene, simulate
-from sedfiber.physics.assembly import assemble
+from sedfiber.scene.assembly import assemble
 
 TIGHT = Numerics("Radau", rtol=1e-10, atol=1e-10)  # the default is LSODA at 1e-8
 LENGTH = 62.0

@@ -8,9 +8,9 @@ import pytest
 import reference
 from problems import straight_chain
 from sedfiber import Numerics, Scene, simulate, steady_state
-from sedfiber.audit import audit
-from sedfiber.physics.assembly import assemble
-from sedfiber.physics.transverse import leading_rate, transverse_matrix
+from sedfiber.scene.assembly import assemble
+from sedfiber.simulation.audit import audit
+from sedfiber.simulation.equilibria.transverse import leading_rate, transverse_matrix
 
 WORDS = re.compile(
     r"^(?P<effect>[a-z ]+): left out, and it (?:does not matter \((?P<no>.+)\)|matters \((?P<yes>.+)\): add .+)$"

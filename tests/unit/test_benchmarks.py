@@ -8,10 +8,11 @@ import pytest
 from numpy.testing import assert_allclose
 
 from problems import bent_chain, system_of
-from sedfiber import InputError, Scene, effects_table
-from sedfiber.benchmarks import fused_study
-from sedfiber.benchmarks.timing import REPEATS, timed, timed_together
-from sedfiber.cli import main
+from sedfiber import InputError, Scene
+from sedfiber.commands.cli import main
+from sedfiber.study import effects_table
+from sedfiber.study.costs import fused_study
+from sedfiber.study.costs.timing import REPEATS, timed, timed_together
 
 
 @pytest.mark.parametrize("n_beads", [3, 11, 31])

@@ -11,7 +11,7 @@ import pytest
 import sedfiber
 from command_line import complaint, status_of
 from sedfiber import Scene, read_trajectory, simulate
-from sedfiber.cli import COMMANDS, STEPS, THREADS, TOOLS, main
+from sedfiber.commands.cli import COMMANDS, STEPS, THREADS, TOOLS, main
 
 OPTIONS = {"--B": "1000", "--theta0": "0.7854", "--n-beads": "11", "--t-end": "2"}
 SIMULATE = ["simulate", *(word for pair in OPTIONS.items() for word in pair)]
@@ -251,7 +251,7 @@ def test_a_command_runs_on_one_thread_unless_told_how_many(monkeypatch, capsys, 
 def test_simulation_imports_neither_torch_nor_pandas_nor_matplotlib(tmp_path):
     """It runs 227 times; each of these costs more than a simulation (DESIGN §2)."""
     program = (
-        "import sys; from sedfiber.cli import main; "
+        "import sys; from sedfiber.commands.cli import main; "
         f"status = main({[*SIMULATE, '-o', str(tmp_path / 'x.parquet')]!r}); "
         "heavy = {'torch', 'pandas', 'matplotlib', 'torchdiffeq'} & set(sys.modules); "
         "print(status, sorted(heavy))"
@@ -262,7 +262,7 @@ def test_simulation_imports_neither_torch_nor_pandas_nor_matplotlib(tmp_path):
 def test_what_needs_torch_says_so_where_it_is_not(tmp_path):
     """`pip install .` leaves it out: one line on how to get it, before anything else."""
     program = (
-        "import sys; sys.modules['torch'] = None; from sedfiber.cli import main; "
+        "import sys; sys.modules['torch'] = None; from sedfiber.commands.cli import main; "
         "sys.exit(main(['train_node', '--dataset', 'd.parquet']))"
     )
     run = run_process("-c", program, cwd=tmp_path)

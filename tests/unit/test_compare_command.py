@@ -8,11 +8,11 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from sedfiber import Numerics, Scene, Trajectory, read_trajectory, simulate, write_trajectory
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 from sedfiber.commands.plot import title_of
-from sedfiber.comparison import compare
-from sedfiber.forecasting import load_plain_model
-from sedfiber.learning.measures import forecast_error
+from sedfiber.reduced.forecaster import load_plain_model
+from sedfiber.reduced.measures import forecast_error
+from sedfiber.study.comparison import compare
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.style import context
 
-from sedfiber.cli import OneLineParser
-from sedfiber.commands import plot_cost_decision, plot_cost_integrators, plot_cost_models, plot_cost_physics
-from sedfiber.errors import InputError
+from sedfiber.commands.cli import OneLineParser
+from sedfiber.commands.steps import plot_cost_decision, plot_cost_integrators, plot_cost_models, plot_cost_physics
+from sedfiber.core.errors import InputError
 from sedfiber.figures.cost_decision import draw_cost_decision
 from sedfiber.figures.cost_integrators import draw_cost_integrators
 from sedfiber.figures.cost_models import draw_cost_models

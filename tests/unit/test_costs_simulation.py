@@ -10,21 +10,21 @@ from scipy.integrate import RK45
 
 from problems import bent_chain, system_of
 from sedfiber import Scene, simulate
-from sedfiber.angles import angle_of
-from sedfiber.benchmarks.machine import machine, unit
-from sedfiber.benchmarks.source_setup import SourceSetup, forces
-from sedfiber.benchmarks.timing import FEW, REPEATS, timed_run
-from sedfiber.cli import main
-from sedfiber.costs import discretisation, integrators
-from sedfiber.costs.discretisation import GROWTH_COLUMNS, cost_growth, curve_distance, measure_discretisation
-from sedfiber.costs.falls import Fall, OutOfTime
-from sedfiber.costs.integrators import measure_integrators
-from sedfiber.costs.methods import METHODS, by_solve_ivp
-from sedfiber.costs.power_law import fit_power_law
-from sedfiber.costs.trajectories import measure_trajectories
-from sedfiber.differences import largest_distance
-from sedfiber.errors import NumericalError
-from sedfiber.numerics import Numerics
+from sedfiber.commands.cli import main
+from sedfiber.core.errors import NumericalError
+from sedfiber.scene.numerics import Numerics
+from sedfiber.simulation.differences import largest_distance
+from sedfiber.study.angles import angle_of
+from sedfiber.study.costs import discretisation, integrators
+from sedfiber.study.costs.discretisation import GROWTH_COLUMNS, cost_growth, curve_distance, measure_discretisation
+from sedfiber.study.costs.falls import Fall, OutOfTime
+from sedfiber.study.costs.integrators import measure_integrators
+from sedfiber.study.costs.machine import machine, unit
+from sedfiber.study.costs.methods import METHODS, by_solve_ivp
+from sedfiber.study.costs.power_law import fit_power_law
+from sedfiber.study.costs.source_setup import SourceSetup, forces
+from sedfiber.study.costs.timing import FEW, REPEATS, timed_run
+from sedfiber.study.costs.trajectories import measure_trajectories
 
 SECONDS = ["seconds_least", "seconds_median", "seconds_spread", "repeats"]
 COUNTS = ["steps", "rhs", "jacobians", "factorisations"]
@@ -112,7 +112,7 @@ def test_short_runs_are_repeated_ten_times_and_long_ones_three(monkeypatch):
     short = timed_run(lambda: calls.append("run") or "result")
     assert (short.repeats, calls.count("run"), short.returned) == (REPEATS, REPEATS + 1, "result")
     calls.clear()
-    monkeypatch.setattr("sedfiber.benchmarks.timing.LONG", 0.0)
+    monkeypatch.setattr("sedfiber.study.costs.timing.LONG", 0.0)
     long = timed_run(lambda: calls.append("run"), lambda: None)
     assert (long.repeats, calls.count("run")) == (FEW, FEW)
     assert 0.0 <= long.least <= long.median and long.spread >= 0.0
@@ -121,8 +121,8 @@ def test_short_runs_are_repeated_ten_times_and_long_ones_three(monkeypatch):
 
 def test_a_very_long_run_is_not_repeated(monkeypatch):
     """Above 5 s, here 10 ms, one run is all."""
-    monkeypatch.setattr("sedfiber.benchmarks.timing.LONG", 0.01)
-    monkeypatch.setattr("sedfiber.benchmarks.timing.VERY_LONG", 0.01)
+    monkeypatch.setattr("sedfiber.study.costs.timing.LONG", 0.01)
+    monkeypatch.setattr("sedfiber.study.costs.timing.VERY_LONG", 0.01)
     calls = []
     assert timed_run(lambda: calls.append(time.sleep(0.02)), lambda: None).repeats == len(calls) == 1
 

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from problems import crumpled_chain, random_rotation, taylor_slope
-from sedfiber.physics.assembly import assemble
-from sedfiber.scene import Scene
+from sedfiber.scene.assembly import assemble
+from sedfiber.scene.scene import Scene
 
 N, CENTRE = 7, 3
 BASE = {"B": 24.0 * N**3 / 30.0, "theta0": 0.5, "n_beads": N, "hydrodynamics": "RPY-overlap"}  # ℰ = 30

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sedfiber import NumericalError, Numerics, Scene, simulate
-from sedfiber.differences import largest_distance, rms_distance
+from sedfiber.simulation.differences import largest_distance, rms_distance
 
 TRUTH = Numerics("Radau", 1e-12, 1e-12)
 

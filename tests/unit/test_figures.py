@@ -9,7 +9,7 @@ import matplotlib
 import pandas as pd
 import pytest
 
-from sedfiber.errors import InputError
+from sedfiber.core.errors import InputError
 
 MODELS = (("ours_2", "rollout", 2), ("ours_4", "rollout", 4), ("theirs", "source", 4), ("lookup", "lookup", None))
 B_VALUES = {"A": (100, 1000), "B": (150, 700)}
@@ -70,7 +70,7 @@ def plot(command: str, data: pd.DataFrame, folder: Path, options: list[str] | No
     """Run a command on a table; returns the bytes of its SVG and its PNG."""
     source, svg, png = folder / "table.csv", folder / "figure.svg", folder / "figure.png"
     data.to_csv(source, index=False)
-    module = import_module(f"sedfiber.commands.{command}")
+    module = import_module(f"sedfiber.commands.steps.{command}")
     parser = argparse.ArgumentParser()
     module.add_arguments(parser)
     given = FIGURES[command][1] if options is None else options

@@ -7,13 +7,13 @@ import pytest
 from PIL import Image
 
 from sedfiber import Scene, simulate, write_trajectory
-from sedfiber.cli import main
-from sedfiber.dataset_file import write_dataset
+from sedfiber.commands.cli import main
 from sedfiber.figures.falls import Fall
-from sedfiber.films.film import FRAMES, frame_samples
-from sedfiber.films.forecast import film_forecast
-from sedfiber.films.scene import film_scene
-from sedfiber.numerics import Numerics
+from sedfiber.figures.films.film import FRAMES, frame_samples
+from sedfiber.figures.films.forecast import film_forecast
+from sedfiber.figures.films.scene import film_scene
+from sedfiber.reduced.dataset_file import write_dataset
+from sedfiber.scene.numerics import Numerics
 
 N_BEADS = 7
 T = np.arange(0.0, 50.5, 0.5)

@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from sedfiber import Scene, read_trajectory, simulate
-from sedfiber.cli import main
-from sedfiber.progress_bar import FEW, simulated_time, with_progress
+from sedfiber.commands.cli import main
+from sedfiber.core.progress_bar import FEW, simulated_time, with_progress
 
 N_BEADS = 7
 
@@ -133,7 +133,7 @@ class Terminal(io.StringIO):
 
 def test_a_bar_is_drawn_for_many_on_a_terminal_alone(monkeypatch):
     """It is gone at the end; what is gone through does not change."""
-    monkeypatch.setattr("sedfiber.progress_bar._PAUSE", -1.0)
+    monkeypatch.setattr("sedfiber.core.progress_bar._PAUSE", -1.0)
     for items, stream, shown in (
         (range(FEW + 1), Terminal(), True),
         (range(FEW), Terminal(), False),
@@ -147,7 +147,7 @@ def test_a_bar_is_drawn_for_many_on_a_terminal_alone(monkeypatch):
 
 def test_a_long_simulation_says_how_far_it_has_come(monkeypatch):
     """On a terminal, after some patience; nothing is left of it at the end."""
-    monkeypatch.setattr("sedfiber.progress_bar._PATIENCE", -1.0)
+    monkeypatch.setattr("sedfiber.core.progress_bar._PATIENCE", -1.0)
     for stream, shown in ((Terminal(), True), (io.StringIO(), False)):
         monkeypatch.setattr(sys, "stderr", stream)
         with simulated_time() as progress:

@@ -7,9 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from sedfiber.cli import main
-from sedfiber.dataset_file import write_dataset
-from sedfiber.errors import InputError
+from sedfiber.commands.cli import main
+from sedfiber.core.errors import InputError
 from sedfiber.figures.best_and_worst import best_and_worst, pair_up, pairs_of
 from sedfiber.figures.contact_sheet import draw_contact_sheet
 from sedfiber.figures.falls import Fall
@@ -17,6 +16,7 @@ from sedfiber.figures.forecast_paths import draw_forecast_paths
 from sedfiber.figures.forecast_shapes import SNAPSHOTS, draw_forecast_shapes
 from sedfiber.figures.lags import draw_lags
 from sedfiber.figures.style import BLACK, VERMILION
+from sedfiber.reduced.dataset_file import write_dataset
 
 N_BEADS = 7
 T = np.arange(0.0, 20.5, 0.5)

@@ -6,11 +6,11 @@ from importlib import import_module
 import pandas as pd
 import pytest
 
-from sedfiber.cli import main
-from sedfiber.errors import NumericalError
-from sedfiber.hard_cases import start_cases
-from sedfiber.hard_cases.case import FOLDER, Measurement, must_refuse, yes_or_no
-from sedfiber.hard_cases.listing import CASES, NAMES
+from sedfiber.commands.cli import main
+from sedfiber.core.errors import NumericalError
+from sedfiber.study.hard_cases import start_cases
+from sedfiber.study.hard_cases.case import FOLDER, Measurement, must_refuse, yes_or_no
+from sedfiber.study.hard_cases.listing import CASES, NAMES
 
 
 def test_names_are_unique():

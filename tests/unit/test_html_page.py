@@ -6,9 +6,9 @@ from html.parser import HTMLParser
 import pandas as pd
 import pytest
 
-from sedfiber.commands import show_manifest, show_table
-from sedfiber.errors import InputError
-from sedfiber.html_page import table_page
+from sedfiber.commands.steps import show_manifest, show_table
+from sedfiber.core.errors import InputError
+from sedfiber.figures.html_page import table_page
 
 
 class Cells(HTMLParser):

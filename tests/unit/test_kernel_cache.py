@@ -1,30 +1,28 @@
 """Compiled kernels must not outlive the sources of what they call."""
 
-import os
+from sedfiber.core.kernel_cache import sources_stamp
+from sedfiber.physics.gaps import closest_distance
 
-from sedfiber.kernel_cache import forget_stale_kernels
 
-
-def test_kernels_are_kept_while_no_source_changes_and_forgotten_when_one_does(tmp_path):
-    """Any file of the folder counts; other files beside the kernels stay."""
-    (tmp_path / "__pycache__").mkdir()
+def test_the_stamp_of_a_folder_changes_with_any_source_and_with_nothing_else(tmp_path):
+    """A kernel compiled into another file counts; a compiled file beside them does not."""
     for name in ("caller.py", "called.py"):
         (tmp_path / name).write_text("x = 1\n")
-    forget_stale_kernels(tmp_path)
-    compiled = [tmp_path / "__pycache__" / f"caller.f-1.py311{end}" for end in (".nbi", ".1.nbc")]
-    other = tmp_path / "__pycache__" / "caller.cpython-311.pyc"
-    for path in (*compiled, other):
-        path.write_text("")
-    forget_stale_kernels(tmp_path)
-    assert all(path.exists() for path in compiled)
-    os.utime(tmp_path / "called.py", ns=(0, 0))
-    forget_stale_kernels(tmp_path)
-    assert not any(path.exists() for path in compiled) and other.exists()
+    before = sources_stamp(tmp_path)
+    (tmp_path / "other.nbi").write_text("")
+    assert sources_stamp(tmp_path) == before
+    (tmp_path / "called.py").write_text("x = 2\n")
+    changed = sources_stamp(tmp_path)
+    (tmp_path / "called.py").rename(tmp_path / "renamed.py")
+    assert len({before, changed, sources_stamp(tmp_path)}) == 3
 
 
-def test_a_folder_that_cannot_be_written_to_is_left_alone(tmp_path):
-    """As where the package is installed for all users; here the cache's place is taken by a file."""
-    (tmp_path / "kernel.py").write_text("x = 1\n")
-    (tmp_path / "__pycache__").write_text("")
-    forget_stale_kernels(tmp_path)
-    assert (tmp_path / "__pycache__").is_file()
+def test_a_kernel_is_kept_under_the_stamp_of_its_folder():
+    """numba reads the stamp from the kernel's cache, and compiles again when it is another."""
+    import sedfiber.physics
+
+    (folder,) = sedfiber.physics.__path__
+    from pathlib import Path
+
+    cache = closest_distance._cache
+    assert cache._impl.locator.get_source_stamp() == sources_stamp(Path(folder))

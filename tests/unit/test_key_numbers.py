@@ -3,8 +3,8 @@
 import pandas as pd
 import pytest
 
-from sedfiber.errors import InputError
-from sedfiber.key_numbers import StudyTables, key_numbers
+from sedfiber.core.errors import InputError
+from sedfiber.study.key_numbers import StudyTables, key_numbers
 
 FORECASTERS = (
     ("ours_d2", "rollout", 2),

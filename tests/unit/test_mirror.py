@@ -5,9 +5,9 @@ import pytest
 
 from problems import taylor_slope
 from sedfiber import Scene, simulate
-from sedfiber.numerics import Numerics
-from sedfiber.physics.assembly import assemble
 from sedfiber.physics.mirror import MirrorSymmetric, whole
+from sedfiber.scene.assembly import assemble
+from sedfiber.scene.numerics import Numerics
 
 SPACES = pytest.mark.parametrize("space", ["plane", "volume"])
 

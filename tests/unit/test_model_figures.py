@@ -10,7 +10,7 @@ import pytest
 from matplotlib.colors import same_color
 from matplotlib.patches import FancyArrowPatch
 
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 from sedfiber.figures.blocks import bent
 from sedfiber.figures.model_diagram import CONNECTIONS, draw_model_diagram, read_sizes
 from sedfiber.figures.reconstruction import CURVES, draw_reconstruction

@@ -11,15 +11,15 @@ import pytest
 
 from sedfiber import Numerics, Scene, simulate
 from sedfiber.physics.integrators import StochasticMidpoint
-from sedfiber.scene_parts import PARTS
+from sedfiber.scene.parts import PARTS
 
 # What the study's scene does not list, and the modules in which it acts.
 UNLISTED = {
-    "bending": ["curved_bending"],
-    "wall": ["wall", "near_wall"],
-    "contact": ["contact", "wall_contact"],
-    "flow": ["linear_flow", "parabolic_flow", "flow_couple", "couple_flow"],
-    "own": ["own_effect"],
+    "bending": ["physics.curved_bending"],
+    "wall": ["physics.wall", "physics.near_wall"],
+    "contact": ["physics.contact", "physics.wall_contact"],
+    "flow": ["physics.linear_flow", "physics.parabolic_flow", "physics.flow_couple", "physics.couple_flow"],
+    "own": ["scene.own_effect"],
 }
 LISTING = {
     "bending": {"bending": {"curvature": 0.05}},
@@ -46,9 +46,9 @@ def run_process(folder, program, *words):
 
 
 def module_of(name):
-    """A module of ``sedfiber.physics``, or None where it has not been written."""
+    """A module of the package, or None where it has not been written."""
     try:
-        return importlib.import_module(f"sedfiber.physics.{name}")
+        return importlib.import_module(f"sedfiber.{name}")
     except ModuleNotFoundError:
         return None
 
@@ -74,7 +74,9 @@ def calls(monkeypatch):
                     spy(owner, name, function)
     for name in ("__init__", "states"):
         spy(StochasticMidpoint, name, getattr(StochasticMidpoint, name))
-    monkeypatch.setattr("sedfiber.start._displacement", lambda *words: counts.setdefault("disturbance", 1) * np.nan)
+    monkeypatch.setattr(
+        "sedfiber.scene.start._displacement", lambda *words: counts.setdefault("disturbance", 1) * np.nan
+    )
     return counts
 
 
@@ -103,11 +105,11 @@ def test_what_is_listed_is_called_and_nothing_else(calls, key, called):
 IMPORTS = """
 import json, sys
 from sedfiber import Scene
-from sedfiber.cli import main
-from sedfiber.physics.assembly import assemble
+from sedfiber.commands.cli import main
+from sedfiber.scene.assembly import assemble
 study, listing = json.loads(sys.argv[1]), json.loads(sys.argv[2])
 def loaded():
-    return {name.removeprefix("sedfiber.physics.") for name in sys.modules if name.startswith("sedfiber.physics.")}
+    return {name.removeprefix("sedfiber.") for name in sys.modules if name.startswith("sedfiber.")}
 words = [f"--{key.replace('_', '-')}={value}" for key, value in study.items()]
 status = main(["simulate", *words, "--t-end=2", "-o", "x.parquet"])
 before = loaded()
@@ -180,7 +182,7 @@ def test_a_part_that_does_nothing_changes_nothing(study, tmp_path, monkeypatch, 
 ALLOCATIONS = """
 import gc, importlib, json, sys, tracemalloc
 from sedfiber import Scene
-from sedfiber.physics.assembly import assemble
+from sedfiber.scene.assembly import assemble
 study, listing, names = map(json.loads, sys.argv[1:])
 def most(system):
     y = system.to_state(Scene(**study, space=["plane", "volume"][system.shape[1] - 2]).start())
@@ -201,7 +203,7 @@ def most(system):
 system = assemble(Scene(**study))
 found = {"alone": most(system), "again": most(system)}
 for name in names:
-    importlib.import_module("sedfiber.physics." + name)
+    importlib.import_module("sedfiber." + name)
 parts = {key: assemble(Scene(**(study | values))) for key, values in listing.items()}
 found |= {"beside": most(system), "fresh": most(assemble(Scene(**study)))}
 print(json.dumps(found | {key: most(part) for key, part in parts.items()}))

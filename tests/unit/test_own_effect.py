@@ -13,10 +13,10 @@ from numpy.testing import assert_allclose
 import reference
 from problems import bent_chain
 from sedfiber import InputError, Numerics, Scene, read_scene, read_trajectory, simulate
-from sedfiber.cli import main
-from sedfiber.physics.assembly import assemble
-from sedfiber.physics.own_effect import OwnFlow, OwnForce, load_own
-from sedfiber.scene_parts import Own
+from sedfiber.commands.cli import main
+from sedfiber.scene.assembly import assemble
+from sedfiber.scene.own_effect import OwnFlow, OwnForce, load_own
+from sedfiber.scene.parts import Own
 
 PAGE = Path(__file__).parents[2] / "docs" / "own_effect.md"
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from sedfiber.errors import InputError
-from sedfiber.published import publish
+from sedfiber.core.errors import InputError
+from sedfiber.study.published import publish
 
 
 def git(folder: Path, *words: str) -> str:

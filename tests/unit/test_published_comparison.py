@@ -5,9 +5,9 @@ import argparse
 import pandas as pd
 import pytest
 
-from sedfiber.commands import compare_published
-from sedfiber.errors import InputError, NumericalError
-from sedfiber.published_comparison import COMPARED, compare
+from sedfiber.commands.steps import compare_published
+from sedfiber.core.errors import InputError, NumericalError
+from sedfiber.study.published_comparison import COMPARED, compare
 
 
 def trajectories(settling_time: float = 300.0, settled_to: str = "U") -> pd.DataFrame:

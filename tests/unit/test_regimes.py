@@ -5,9 +5,9 @@ import pandas as pd
 import pytest
 
 from sedfiber import Scene, simulate
-from sedfiber.cli import main
-from sedfiber.errors import InputError
-from sedfiber.regimes import measure_motion
+from sedfiber.commands.cli import main
+from sedfiber.core.errors import InputError
+from sedfiber.study.regimes import measure_motion
 
 N = 31
 BOND_PLACES = (np.arange(N - 1) - 0.5 * (N - 2)) / N  # s of each bond's middle, in L

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from sedfiber import InputError, Scene
-from sedfiber.physics.assembly import assemble
+from sedfiber.scene.assembly import assemble
 
 
 def test_modulus_and_both_elasto_gravitational_numbers():

@@ -5,9 +5,9 @@ import pandas as pd
 import pytest
 
 from sedfiber import Scene, simulate, write_trajectory
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 from sedfiber.figures.scene import draw_scene
-from sedfiber.numerics import Numerics
+from sedfiber.scene.numerics import Numerics
 
 KINDS = {
     "plane": {},

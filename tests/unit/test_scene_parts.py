@@ -13,9 +13,9 @@ from numpy.testing import assert_allclose
 from test_cli import complaint, status_of
 
 from sedfiber import InputError, Numerics, Scene, read_scene, read_trajectory, simulate, write_trajectory
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 from sedfiber.physics.curved_bending import rest_arc
-from sedfiber.scene_parts import PARTS
+from sedfiber.scene.parts import PARTS
 
 BASE = {"B": 1000.0, "theta0": 0.7, "n_beads": 5}
 WALL = {"point": [0.0, -50.0, 0.0], "normal": [0.6, 0.8, 0.0]}

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sedfiber import NumericalError, Numerics, Scene, simulate, steady_state
-from sedfiber.hard_cases.symmetry_cases import asymmetry
+from sedfiber.study.hard_cases.symmetry_cases import asymmetry
 
 
 @pytest.mark.parametrize(("B", "name"), [(4000, "U"), (10000, "W")])

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from scipy.optimize import minimize_scalar
 
 from problems import bent_chain
-from sedfiber.physics.settling import SETTLED, distance_to_terminal, settling_time
+from sedfiber.simulation.settling import SETTLED, distance_to_terminal, settling_time
 
 TERMINAL = bent_chain(0, n_beads=11) * [1.0, 1.0, 0.0]  # a planar shape
 LENGTH = 22.0

@@ -11,14 +11,15 @@ import pytest
 from safetensors.numpy import load as load_tensors
 
 from sedfiber import InputError, Scene, load_model, simulate
-from sedfiber.angles import angle_of
-from sedfiber.differences import largest_distance
-from sedfiber.forecasting import load_plain_model
-from sedfiber.learning.measures import forecast_error
-from sedfiber.model_folder import SHIPPED, WEIGHTS, checksum, read_model_folder
-from sedfiber.shipped_model import SETS, ship
-from sedfiber.terminal_curve import FILE as CURVE
-from sedfiber.terminal_curve import read_terminal_curve
+from sedfiber.core.checksum import sha256_of_bytes
+from sedfiber.reduced.forecaster import load_plain_model
+from sedfiber.reduced.measures import forecast_error
+from sedfiber.reduced.model_folder import SHIPPED, WEIGHTS, read_model_folder
+from sedfiber.simulation.differences import largest_distance
+from sedfiber.simulation.equilibria.terminal_curve import FILE as CURVE
+from sedfiber.simulation.equilibria.terminal_curve import read_terminal_curve
+from sedfiber.study.angles import angle_of
+from sedfiber.study.shipping import SETS, ship
 
 PUBLISHED = Path(__file__).parents[2] / "results/published"
 CARD, _ = read_model_folder(SHIPPED, "forecast model")
@@ -33,9 +34,9 @@ def disagreements(card: dict) -> list[str]:
     d, n_beads = card["autoencoder"]["latent_dim"], within["n_beads"]
     train, model = config["study"]["train"], config["node"]["models"][config["node"]["forecast_model"]]
     pairs = {
-        "weights": (card["sha256"], checksum((SHIPPED / WEIGHTS).read_bytes())),
+        "weights": (card["sha256"], sha256_of_bytes((SHIPPED / WEIGHTS).read_bytes())),
         "published weights": (card["sha256"], manifest["sha256"][f"results/models/forecast/{WEIGHTS}"]),
-        "terminal curve": (card["terminal_curve_sha256"], checksum((SHIPPED / CURVE).read_bytes())),
+        "terminal curve": (card["terminal_curve_sha256"], sha256_of_bytes((SHIPPED / CURVE).read_bytes())),
         "latent variables": (d, len(tensors["node.latent_scale"])),
         "hidden": (card["neural_ode"]["hidden"], [len(tensors[f"node.network.body.{k}.bias"]) for k in (0, 2)]),
         "beads": (3 * n_beads, tensors["autoencoder.modes"].shape[1]),

@@ -7,7 +7,7 @@ import pytest
 
 import sedfiber
 from sedfiber import InputError, NumericalError, Numerics, Scene, simulate, steady_state
-from sedfiber.physics.settling import SETTLED, distance_to_terminal
+from sedfiber.simulation.settling import SETTLED, distance_to_terminal
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from problems import bent_chain, straight_chain, system_of
-from sedfiber import NumericalError, Scene, simulation
-from sedfiber.physics.checks import Checks, check
+from sedfiber import NumericalError, Scene, simulate
+from sedfiber.simulation.checks import Checks, check
 
 GOOD = Checks(
     bond_strain_max=0.01,
@@ -84,9 +84,9 @@ def test_a_run_of_one_sample_is_in_balance():
 
 def test_a_run_that_breaks_a_bound_is_no_result(monkeypatch):
     """simulate() raises instead of returning: here with a strain bound that no fiber can meet."""
-    monkeypatch.setattr("sedfiber.physics.checks.strain_bound", lambda scene: 1e-12)
+    monkeypatch.setattr("sedfiber.simulation.checks.strain_bound", lambda scene: 1e-12)
     with pytest.raises(NumericalError, match="check failed: bond strain"):
-        simulation.simulate(Scene(1000, 0.5, 11), t_end=2.0)
+        simulate(Scene(1000, 0.5, 11), t_end=2.0)
 
 
 @pytest.mark.parametrize("r", [1.5, 1.0])

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from sedfiber import Scene, steady_state
-from sedfiber.physics.assembly import assemble
-from sedfiber.physics.spectrum import leaving_rate, spectrum
+from sedfiber.scene.assembly import assemble
+from sedfiber.simulation.equilibria.spectrum import leaving_rate, spectrum
 
 SCENE = Scene(5000.0, 0.0)
 

@@ -3,7 +3,7 @@
 import pandas as pd
 import pytest
 
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 
 FEW = ["--n-beads", "7", "--B-min", "10", "--B-max", "2000", "--per-decade", "2"]
 COLUMNS = [
@@ -105,7 +105,9 @@ def test_a_fiber_without_a_terminal_shape_is_refused(tmp_path, capsys, words):
 
 def test_a_missing_folder_is_refused_before_the_work(tmp_path, capsys, monkeypatch):
     """No state is solved for."""
-    monkeypatch.setattr("sedfiber.commands.trace_states.trace_sections", lambda *args: pytest.fail("it traced first"))
+    monkeypatch.setattr(
+        "sedfiber.commands.steps.trace_states.trace_sections", lambda *args: pytest.fail("it traced first")
+    )
     assert trace(tmp_path / "none") == 1
     assert capsys.readouterr().err.startswith("sedfiber trace_states: output: ")
 

@@ -5,8 +5,8 @@ import pytest
 
 import sedfiber
 from sedfiber import InputError, NumericalError, Scene, SteadyState, simulate, steady_state
-from sedfiber.physics.steady import terminal_state
-from sedfiber.physics.steady_curve import SteadyCurve
+from sedfiber.simulation.equilibria.steady import terminal_state
+from sedfiber.simulation.equilibria.steady_curve import SteadyCurve
 
 
 def test_public_interface():

@@ -8,10 +8,10 @@ import pytest
 
 from problems import taylor_slope
 from sedfiber import Scene, steady_state
-from sedfiber.physics import steady_curve
-from sedfiber.physics.spectrum import spectrum
-from sedfiber.physics.steady import state_of, straight_point, w_point
-from sedfiber.physics.steady_curve import CurvePoint, SteadyCurve
+from sedfiber.simulation.equilibria import steady_curve
+from sedfiber.simulation.equilibria.spectrum import spectrum
+from sedfiber.simulation.equilibria.steady import state_of, straight_point, w_point
+from sedfiber.simulation.equilibria.steady_curve import CurvePoint, SteadyCurve
 
 SCENE = Scene(10_000.0, 0.0)
 W_FOLD, U_FOLD = 6975.03622074, 63299.3900991  # ℬ, N = 31

@@ -9,8 +9,8 @@ import pytest
 from matplotlib.colors import to_rgba
 
 from sedfiber import Scene, read_trajectory, simulate, write_trajectory
-from sedfiber.cli import main
-from sedfiber.errors import InputError
+from sedfiber.commands.cli import main
+from sedfiber.core.errors import InputError
 from sedfiber.figures.centre_paths import draw_centre_paths
 from sedfiber.figures.data_sets import SETS, draw_data_sets
 from sedfiber.figures.falls import falls_where, read_falls, snapshots
@@ -18,7 +18,7 @@ from sedfiber.figures.problem import LAST, draw_problem
 from sedfiber.figures.shapes_by_angle import draw_shapes_by_angle
 from sedfiber.figures.shapes_by_flexibility import SNAPSHOTS, draw_shapes_by_flexibility
 from sedfiber.figures.style import VERMILION
-from sedfiber.numerics import Numerics
+from sedfiber.scene.numerics import Numerics
 
 B_VALUES, ANGLES, N = (100, 1000), (0, 12), 7
 FIGURES = {
@@ -60,7 +60,7 @@ def call(*words):
 def plot(command, study, out, words=None):
     """Run a command; returns the bytes of its SVG and its PNG. Words with a dot are files of the study."""
     given = [str(study / word) if "." in word else word for word in words or FIGURES[command]]
-    module, parser = import_module(f"sedfiber.commands.{command}"), argparse.ArgumentParser()
+    module, parser = import_module(f"sedfiber.commands.steps.{command}"), argparse.ArgumentParser()
     module.add_arguments(parser)
     module.run(parser.parse_args([*given, "--svg", str(out / "x.svg"), "--png", str(out / "x.png")]))
     return (out / "x.svg").read_bytes(), (out / "x.png").read_bytes()

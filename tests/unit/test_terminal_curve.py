@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from sedfiber import InputError, NumericalError, steady_state
-from sedfiber.cli import main
-from sedfiber.terminal_curve import TerminalCurve, read_terminal_curve, write_terminal_curve
+from sedfiber.commands.cli import main
+from sedfiber.simulation.equilibria.terminal_curve import TerminalCurve, read_terminal_curve, write_terminal_curve
 
 
 @pytest.fixture(scope="module")

@@ -6,8 +6,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from sedfiber import InputError, Trajectory, read_trajectory, write_trajectory
-from sedfiber.atomic_file import replaced_when_done, require_writable, write_text
-from sedfiber.trajectory_file import METADATA_KEY, bead_count, coordinate_names
+from sedfiber.core.atomic_file import replaced_when_done, require_writable, write_text
+from sedfiber.core.parquet_file import METADATA_KEY, bead_count, coordinate_names
 
 
 @pytest.fixture

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from sedfiber.errors import InputError, SedfiberError
-from sedfiber.validation import finite_number, one_of, positive_number, whole_number
+from sedfiber.core.errors import InputError, SedfiberError
+from sedfiber.core.validation import finite_number, one_of, positive_number, whole_number
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))

@@ -16,7 +16,7 @@ IMPORTS = "import numpy, pyarrow.parquet"
 ITSELF = """
 import os, time
 os.environ["OPENBLAS_NUM_THREADS"] = "1"  # as the command does
-from sedfiber.forecasting import load_plain_model
+from sedfiber.reduced.forecaster import load_plain_model
 model = load_plain_model()
 begin = time.perf_counter()
 model.settle(1000, 0.7854)

@@ -11,7 +11,7 @@ import pytest
 from explorer_page import make
 from workflow_helpers import REPOSITORY, clean_environment
 
-from sedfiber.dataset_file import write_dataset
+from sedfiber.reduced.dataset_file import write_dataset
 
 TINY = Path(__file__).with_name("tiny.yaml")
 
@@ -97,7 +97,7 @@ def check_out_tiny():
 @pytest.fixture(scope="session")
 def falls():
     """Two falls of the training set, one of test set B."""
-    from sedfiber.hard_cases.training_cases import simulated  # torch: most tests of this folder do without
+    from sedfiber.study.hard_cases.training_cases import simulated  # torch: most tests of this folder do without
 
     return [*simulated(7, (200.0,), (0, 10)), *(replace(fall, split="B") for fall in simulated(7, (300.0,), (7,)))]
 

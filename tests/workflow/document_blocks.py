@@ -20,7 +20,7 @@ KINDS = {"sh", "console", "python", "yaml", "sql", "r", "text"}  # text: nothing
 # Python for what is no command line: the help of every command, and SQL, which must find something.
 SCRIPTS = {
     "sedfiber COMMAND --help": """
-from sedfiber.cli import COMMANDS, main
+from sedfiber.commands.cli import COMMANDS, main
 for name in COMMANDS:
     try:
         main([name, "--help"])

@@ -4,7 +4,7 @@ import argparse
 
 import numpy as np
 
-from sedfiber.commands import make_explorer
+from sedfiber.commands.steps import make_explorer
 
 CLOSE = 1e-5  # of L; the page promises 1e-4
 

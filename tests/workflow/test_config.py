@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from sedfiber.hard_cases.listing import CASES
-from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
-from sedfiber.source_files import PACKAGE, command_sources, module_sources
+from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
+from sedfiber.study.hard_cases.listing import CASES
+from sedfiber.study.source_files import PACKAGE, command_sources, module_sources
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -106,7 +106,7 @@ def test_conda_environments_agree_with_the_lock_file(path):
 def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
     """Physics for a simulation, no learning; figures only for plots."""
     names = {str(path.relative_to(PACKAGE)) for path in command_sources("simulate")}
-    assert {"physics/bending.py", "physics/pair_mobility.py", "scene.py", "commands/simulate.py"} <= names
+    assert {"physics/bending.py", "physics/pair_mobility.py", "scene/scene.py", "commands/simulate.py"} <= names
     assert not any(name.startswith(("learning", "figures")) for name in names)
     drawn = {str(path.relative_to(PACKAGE)) for path in command_sources("plot_baselines")}
     assert "figures/style.py" in drawn

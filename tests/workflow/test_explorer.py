@@ -6,17 +6,17 @@ import torch
 from browser import opened_page
 from explorer_page import CLOSE, distance, forecast, make
 
-from sedfiber.forecasting import load_model
-from sedfiber.learning.autoencoder import Autoencoder
-from sedfiber.learning.forecast import ForecastModel
-from sedfiber.learning.measures import forecast_error
-from sedfiber.learning.model_files import save_forecast_model
-from sedfiber.learning.neural_ode import NeuralOde
-from sedfiber.learning.pod import ModalBasis
-from sedfiber.learning.scaling import Scales
-from sedfiber.learning.settings import AutoencoderSettings
-from sedfiber.terminal_curve import FILE as CURVE
-from sedfiber.terminal_curve import TerminalCurve, write_terminal_curve
+from sedfiber.reduced.autoencoder import Autoencoder
+from sedfiber.reduced.forecaster import load_model
+from sedfiber.reduced.measures import forecast_error
+from sedfiber.reduced.model_files import save_forecast_model
+from sedfiber.reduced.neural_ode import NeuralOde
+from sedfiber.reduced.pod import ModalBasis
+from sedfiber.reduced.scaling import Scales
+from sedfiber.reduced.torch_forecast import ForecastModel
+from sedfiber.reduced.training.settings import AutoencoderSettings
+from sedfiber.simulation.equilibria.terminal_curve import FILE as CURVE
+from sedfiber.simulation.equilibria.terminal_curve import TerminalCurve, write_terminal_curve
 
 pytestmark = pytest.mark.slow
 

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from explorer_page import make
 
-from sedfiber.dataset_file import write_dataset
-from sedfiber.errors import InputError
-from sedfiber.terminal_curve import FILE as CURVE
+from sedfiber.core.errors import InputError
+from sedfiber.reduced.dataset_file import write_dataset
+from sedfiber.simulation.equilibria.terminal_curve import FILE as CURVE
 
 pytestmark = pytest.mark.slow
 

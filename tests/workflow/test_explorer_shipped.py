@@ -10,10 +10,10 @@ import pytest
 from browser import opened_page
 from explorer_page import CLOSE, distance, forecast, make
 
-from sedfiber.dataset_file import write_dataset
-from sedfiber.forecasting import load_plain_model
-from sedfiber.hard_cases.training_cases import simulated
-from sedfiber.model_folder import SHIPPED
+from sedfiber.reduced.dataset_file import write_dataset
+from sedfiber.reduced.forecaster import load_plain_model
+from sedfiber.reduced.model_folder import SHIPPED
+from sedfiber.study.hard_cases.training_cases import simulated
 
 pytestmark = pytest.mark.slow
 

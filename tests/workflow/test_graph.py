@@ -73,9 +73,9 @@ def test_a_hard_case_reruns_with_the_module_that_measures_it(empty):
     result = "results/hard_cases/nonsense_starts.csv"
     run = empty.snakemake("-j1", result)
     assert run.returncode == 0, run.stdout + run.stderr
-    empty.append("workflow/sedfiber/hard_cases/tolerance_cases.py", "# a comment")
+    empty.append("workflow/sedfiber/study/hard_cases/tolerance_cases.py", "# a comment")
     assert empty.planned(result) == {}
-    empty.append("workflow/sedfiber/hard_cases/start_cases.py", "# a comment")
+    empty.append("workflow/sedfiber/study/hard_cases/start_cases.py", "# a comment")
     assert empty.planned(result) == {"measure_hard_case": 1}
 
 
@@ -118,7 +118,7 @@ def test_a_second_run_has_nothing_to_do(finished):
     "path",
     [
         "workflow/sedfiber/physics/bending.py",
-        "workflow/sedfiber/learning/dataset.py",
+        "workflow/sedfiber/reduced/dataset.py",
         "envs/requirements.lock",
         "config.yaml",
         "results/dataset/train.parquet",
@@ -148,7 +148,7 @@ def test_an_edited_physics_module_reruns_simulations_and_all_that_follows(rerun)
 
 def test_an_edited_learning_module_keeps_the_simulations(rerun):
     """Physics knows nothing of learning."""
-    rerun.append("workflow/sedfiber/learning/train_autoencoder.py", "# edited")
+    rerun.append("workflow/sedfiber/reduced/training/train_autoencoder.py", "# edited")
     planned = rerun.planned()
     assert not {"simulate", "aggregate_dataset", "forecast_by_lookup"} & set(planned)
     assert planned["train_autoencoder"] == 8

@@ -19,7 +19,7 @@ from packaging.utils import canonicalize_name
 from workflow_helpers import REPOSITORY
 
 import sedfiber
-from sedfiber.cli import TOOLS
+from sedfiber.commands.cli import TOOLS
 
 pytestmark = pytest.mark.slow
 SLOW = ("numba", "torch", "pandas", "scipy", "matplotlib")
@@ -119,7 +119,7 @@ def test_it_imports_nothing_slow(installed, tmp_path):
     """Nor is any part of these imported by others on the way."""
     line = (installed / "python", "-X", "importtime", "-m", "sedfiber", "forecast", *START, "-o", "f.parquet")
     imported = set(re.findall(r"\| +([\w.]+)$", run(*line, folder=tmp_path).stderr, re.MULTILINE))
-    assert {"numpy", "sedfiber.plain.model"} <= imported
+    assert {"numpy", "sedfiber.reduced.plain.model"} <= imported
     assert not {name.split(".")[0] for name in imported} & set(SLOW)
 
 

@@ -16,8 +16,8 @@ from PIL import Image
 from workflow_helpers import REPOSITORY, results_of
 
 import sedfiber
-from sedfiber.differences import largest_distance
-from sedfiber.shipped_model import SETS, copy_model
+from sedfiber.simulation.differences import largest_distance
+from sedfiber.study.shipping import SETS, copy_model
 
 pytestmark = pytest.mark.slow
 

@@ -9,9 +9,9 @@ from pathlib import Path
 BASE = Path(workflow.basedir)
 sys.path.insert(0, str(BASE / "workflow"))
 
-from sedfiber.hard_cases.listing import NAMES as HARD_CASES, case_of
-from sedfiber.source_files import command_sources, module_sources
-from sedfiber.study import SCENE_NAME, Study, as_options, scene_names
+from sedfiber.study.hard_cases.listing import NAMES as HARD_CASES, case_of
+from sedfiber.study.source_files import command_sources, module_sources
+from sedfiber.study.configuration import SCENE_NAME, Study, as_options, scene_names
 
 STUDY = Study.from_config(config, BASE / "workflow/schemas/config.schema.yaml")
 
@@ -100,7 +100,7 @@ def scene_files(scene):
 
 def hard_case_sources(wildcards):
     """What the command and the module that measures the case depend on."""
-    measured_in = module_sources(f"hard_cases.{case_of(wildcards.case).module}")
+    measured_in = module_sources(f"study.hard_cases.{case_of(wildcards.case).module}")
     return sorted({*sources("measure_hard_case"), *map(here, measured_in)})
 
 

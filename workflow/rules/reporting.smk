@@ -2,7 +2,7 @@
 
 import yaml
 
-from sedfiber.published_comparison import COMPARED
+from sedfiber.study.published_comparison import COMPARED
 
 FIGURES = yaml.safe_load((BASE / "workflow/report/figures.yaml").read_text(encoding="utf-8"))
 # The figures that `all` makes; the others belong to target rules of their own.
@@ -76,7 +76,7 @@ PAIRED = [
 
 def page_parts():
     """Template, style and scripts of the explorer."""
-    folder = BASE / "workflow/sedfiber/explorer"
+    folder = BASE / "workflow/sedfiber/figures/explorer"
     return [
         here(path) for path in sorted(folder.iterdir()) if path.suffix in (".html", ".css", ".js")
     ]

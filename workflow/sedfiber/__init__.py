@@ -7,19 +7,19 @@ Public names are imported on first use, so that a simulation never pays for torc
 from importlib import import_module
 
 _EXPORTS = {
-    "InputError": "sedfiber.errors",
-    "NumericalError": "sedfiber.errors",
-    "Numerics": "sedfiber.numerics",
-    "Scene": "sedfiber.scene",
-    "SedfiberError": "sedfiber.errors",
-    "SteadyState": "sedfiber.physics.steady",
-    "Trajectory": "sedfiber.trajectory",
-    "load_model": "sedfiber.forecasting",
-    "read_scene": "sedfiber.scene_file",
-    "read_trajectory": "sedfiber.trajectory_file",
-    "simulate": "sedfiber.simulation",
-    "steady_state": "sedfiber.physics.steady",
-    "write_trajectory": "sedfiber.trajectory_file",
+    "InputError": "sedfiber.core.errors",
+    "NumericalError": "sedfiber.core.errors",
+    "Numerics": "sedfiber.scene.numerics",
+    "Scene": "sedfiber.scene.scene",
+    "SedfiberError": "sedfiber.core.errors",
+    "SteadyState": "sedfiber.simulation.equilibria.steady",
+    "Trajectory": "sedfiber.simulation.trajectory",
+    "load_model": "sedfiber.reduced.forecaster",
+    "read_scene": "sedfiber.scene.scene_file",
+    "read_trajectory": "sedfiber.simulation.trajectory_file",
+    "simulate": "sedfiber.simulation.run",
+    "steady_state": "sedfiber.simulation.equilibria.steady",
+    "write_trajectory": "sedfiber.simulation.trajectory_file",
 }
 
 __all__ = [*_EXPORTS, "__version__"]

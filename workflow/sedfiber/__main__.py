@@ -2,6 +2,6 @@
 
 import sys
 
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 
 sys.exit(main())

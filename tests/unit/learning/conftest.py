@@ -4,7 +4,7 @@ import pytest
 import torch
 from tiny_fiber import TRAINED, settling
 
-from sedfiber.learning.dataset import Dataset
+from sedfiber.reduced.dataset import Dataset
 
 
 @pytest.fixture(autouse=True)

@@ -3,14 +3,14 @@
 import numpy as np
 import torch
 
-from sedfiber.learning.autoencoder import Autoencoder
-from sedfiber.learning.forecast import ForecastModel
-from sedfiber.learning.neural_ode import NeuralOde
-from sedfiber.learning.pod import ModalBasis
-from sedfiber.learning.scaling import Scales
-from sedfiber.learning.settings import AutoencoderSettings
-from sedfiber.learning.start import Start
-from sedfiber.physics.steady import steady_state
+from sedfiber.reduced.autoencoder import Autoencoder
+from sedfiber.reduced.forecast_start import Start
+from sedfiber.reduced.neural_ode import NeuralOde
+from sedfiber.reduced.pod import ModalBasis
+from sedfiber.reduced.scaling import Scales
+from sedfiber.reduced.torch_forecast import ForecastModel
+from sedfiber.reduced.training.settings import AutoencoderSettings
+from sedfiber.simulation.equilibria.steady import steady_state
 
 
 def distance(one, other):

@@ -10,13 +10,13 @@ import torch
 from forecast_models import distance, start_of, untrained
 from numba import njit
 
-from sedfiber.compiled.bead_path import DEGREE
-from sedfiber.compiled.model import load_compiled
-from sedfiber.compiled.perceptron import many, one, tanh_in_place
-from sedfiber.compiled.runge_kutta import continue_step, error_ratio, stage
-from sedfiber.compiled.tableau import STAGES
-from sedfiber.errors import InputError, NumericalError
-from sedfiber.learning.model_files import load_forecast_model, save_autoencoder, save_forecast_model
+from sedfiber.core.errors import InputError, NumericalError
+from sedfiber.reduced.compiled.bead_path import DEGREE
+from sedfiber.reduced.compiled.model import load_compiled
+from sedfiber.reduced.compiled.perceptron import many, one, tanh_in_place
+from sedfiber.reduced.compiled.runge_kutta import continue_step, error_ratio, stage
+from sedfiber.reduced.compiled.tableau import STAGES
+from sedfiber.reduced.model_files import load_forecast_model, save_autoencoder, save_forecast_model
 
 CLOSE = 1e-6  # root-mean-square bead distance over L between the compiled forecast and the torch one
 T = 0.5 * np.arange(200)
@@ -227,5 +227,5 @@ def test_files_that_hold_no_such_model_are_refused(tmp_path):
 
 
 def test_torch_is_not_imported():
-    code = "import sys, sedfiber.compiled.model; sys.exit('torch' in sys.modules)"
+    code = "import sys, sedfiber.reduced.compiled.model; sys.exit('torch' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0

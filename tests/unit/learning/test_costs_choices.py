@@ -11,12 +11,16 @@ import pytest
 
 from problems import taylor_slope
 from sedfiber import InputError, Scene
-from sedfiber.cli import main
-from sedfiber.costs.advice import Question, advice
-from sedfiber.costs.choice import FORECAST, GALERKIN, LOOKUP, SIMULATION, Choice, Outcomes
-from sedfiber.costs.choice_tables import choices_at_each_B, choices_overall, fastest_simulation
-from sedfiber.costs.choices import measure_single, measure_sweeps
-from sedfiber.costs.contestants import (
+from sedfiber.commands.cli import main
+from sedfiber.reduced.pod import pod_basis
+from sedfiber.reduced.scaling import Scales, residual_history
+from sedfiber.scene.assembly import assemble
+from sedfiber.simulation.equilibria.terminal_curve import FILE, read_terminal_curve
+from sedfiber.study.costs.advice import Question, advice
+from sedfiber.study.costs.choice import FORECAST, GALERKIN, LOOKUP, SIMULATION, Choice, Outcomes
+from sedfiber.study.costs.choice_tables import choices_at_each_B, choices_overall, fastest_simulation
+from sedfiber.study.costs.choices import measure_single, measure_sweeps
+from sedfiber.study.costs.contestants import (
     compiled_forecasts,
     forecasters,
     galerkins,
@@ -24,13 +28,9 @@ from sedfiber.costs.contestants import (
     simulations,
     torch_forecast,
 )
-from sedfiber.costs.galerkin import PodGalerkin
-from sedfiber.costs.queries import queries, stored_queries
-from sedfiber.hard_cases.training_cases import simulated
-from sedfiber.learning.pod import pod_basis
-from sedfiber.learning.scaling import Scales, residual_history
-from sedfiber.physics.assembly import assemble
-from sedfiber.terminal_curve import FILE, read_terminal_curve
+from sedfiber.study.costs.galerkin import PodGalerkin
+from sedfiber.study.costs.queries import queries, stored_queries
+from sedfiber.study.hard_cases.training_cases import simulated
 
 N_BEADS = 7
 SECONDS = {"seconds_least", "seconds_median", "seconds_spread"}
@@ -52,7 +52,7 @@ def asked():
 def found(trained_model, training, asked):
     """Everything asked once, with the fewest repeats."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("sedfiber.benchmarks.timing.REPEATS", 2)
+        patch.setattr("sedfiber.study.costs.timing.REPEATS", 2)
         curve, outcomes = read_terminal_curve(trained_model / FILE), Outcomes()
         at = forecasters(trained_model, [1e-3, 1e-7], curve)
         contestants = [*simulations([1e-3, 1e-5, 1e-7], N_BEADS), *galerkins(training, [4, 14]), *lookups(training)]
@@ -238,7 +238,7 @@ def test_the_command_advises_from_its_tables(tmp_path, capsys, monkeypatch):
 
 def test_what_snakemake_measured_is_summed(tmp_path):
     """The column of seconds; a file of something else is refused."""
-    from sedfiber.commands._benchmark_files import seconds_of
+    from sedfiber.commands.steps._benchmark_files import seconds_of
 
     for name, seconds in (("one", 1.5), ("two", 2.0)):
         (tmp_path / name).write_text(f"s\th:m:s\n{seconds}\t0:00:01\n")

@@ -7,14 +7,14 @@ import pandas as pd
 import pytest
 from tiny_fiber import bent_fiber, settling
 
-from sedfiber.cli import main
-from sedfiber.dataset_file import write_dataset
-from sedfiber.errors import InputError
-from sedfiber.learning.dataset import Dataset
-from sedfiber.learning.error_tables import Forecaster
-from sedfiber.learning.lag import MOVING, lag_rows, measure_lag
-from sedfiber.learning.measures import forecast_error
-from sedfiber.trajectory_file import coordinate_columns, write_table
+from sedfiber.commands.cli import main
+from sedfiber.core.errors import InputError
+from sedfiber.core.parquet_file import coordinate_columns, write_table
+from sedfiber.reduced.dataset import Dataset
+from sedfiber.reduced.dataset_file import write_dataset
+from sedfiber.reduced.measures import forecast_error
+from sedfiber.study.error_tables import Forecaster
+from sedfiber.study.lag import MOVING, lag_rows, measure_lag
 
 T = np.arange(0.0, 12.05, 0.1)
 WHO = Forecaster("ours", "rollout", 4)

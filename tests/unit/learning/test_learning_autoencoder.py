@@ -3,12 +3,12 @@ import pytest
 import torch
 from tiny_fiber import N_BEADS
 
-from sedfiber.errors import InputError, NumericalError
-from sedfiber.learning.dataset import Dataset, mirrored
-from sedfiber.learning.pod import pod_basis
-from sedfiber.learning.reconstruction import autoencoder_errors, mean_over_samples, pod_errors
-from sedfiber.learning.settings import VARIANTS, AutoencoderSettings
-from sedfiber.learning.train_autoencoder import path_even_residuals, train_autoencoder
+from sedfiber.core.errors import InputError, NumericalError
+from sedfiber.reduced.dataset import Dataset, mirrored
+from sedfiber.reduced.pod import pod_basis
+from sedfiber.reduced.reconstruction import autoencoder_errors, mean_over_samples, pod_errors
+from sedfiber.reduced.training.settings import VARIANTS, AutoencoderSettings
+from sedfiber.reduced.training.train_autoencoder import path_even_residuals, train_autoencoder
 
 QUICK = AutoencoderSettings(
     decoder_hidden=(12,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=60

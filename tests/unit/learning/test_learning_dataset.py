@@ -3,8 +3,8 @@ import pandas as pd
 import pytest
 from tiny_fiber import N_BEADS, NAMES, TRAINED, bent_fiber, settling
 
-from sedfiber.errors import InputError
-from sedfiber.learning.dataset import Dataset, mirrored, read_dataset
+from sedfiber.core.errors import InputError
+from sedfiber.reduced.dataset import Dataset, mirrored, read_dataset
 
 
 def write_pair(folder, trajectories):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from sedfiber import read_trajectory
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 
 N_BEADS = 7
 ARCH = np.array([[-3.0, -4.0], [-3.0, -2.0], [-2.0, -0.3], [0.0, 0.0], [2.0, -0.3], [3.0, -2.0], [3.0, -4.0]])

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from sedfiber import InputError, Scene, simulate, steady_state
-from sedfiber.compiled.model import load_compiled
-from sedfiber.differences import largest_distance
-from sedfiber.forecasting import FAR, Forecaster, load_model
-from sedfiber.learning.model_files import load_forecast_model, save_forecast_model
-from sedfiber.physics.settling import distance_to_terminal
+from sedfiber.reduced.compiled.model import load_compiled
+from sedfiber.reduced.forecaster import FAR, Forecaster, load_model
+from sedfiber.reduced.model_files import load_forecast_model, save_forecast_model
+from sedfiber.simulation.differences import largest_distance
+from sedfiber.simulation.settling import distance_to_terminal
 
 N_BEADS, LENGTH = 7, 14.0
 ARCH = [[-3.0, -4.0], [-3.0, -2.0], [-2.0, -0.3], [0.0, 0.0], [2.0, -0.3], [3.0, -2.0], [3.0, -4.0]]
@@ -118,8 +118,8 @@ def test_a_forecast_that_ends_elsewhere_says_so(trained_model, tmp_path):
 
 def test_a_forecast_that_never_settles_says_so(forecaster, monkeypatch):
     """The search for the settling time has an end."""
-    monkeypatch.setattr("sedfiber.forecasting._MOST_SAMPLES", 2)
-    monkeypatch.setattr("sedfiber.forecasting._FIRST_LOOK", 2)
+    monkeypatch.setattr("sedfiber.reduced.forecaster._MOST_SAMPLES", 2)
+    monkeypatch.setattr("sedfiber.reduced.forecaster._FIRST_LOOK", 2)
     (words,) = forecaster.settle(200.0, 0.7).metadata["model"]["warnings"]
     assert words.startswith("the forecast has not settled by t=0.5: 0.")
 

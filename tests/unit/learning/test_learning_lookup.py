@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from tiny_fiber import settling
 
-from sedfiber.errors import InputError
-from sedfiber.learning.dataset import Dataset
-from sedfiber.learning.lookup import LookupTable, spline_weights
+from sedfiber.core.errors import InputError
+from sedfiber.reduced.dataset import Dataset
+from sedfiber.study.lookup import LookupTable, spline_weights
 
 
 def test_exact_at_the_nodes(training):

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from sedfiber.errors import InputError
-from sedfiber.learning.measures import ensemble_mean, forecast_error, reconstruction_errors
+from sedfiber.core.errors import InputError
+from sedfiber.reduced.measures import ensemble_mean, forecast_error, reconstruction_errors
 
 N = 5
 LENGTH = 2.0 * N

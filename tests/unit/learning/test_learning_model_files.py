@@ -4,18 +4,18 @@ import numpy as np
 import pytest
 from tiny_fiber import settling
 
-from sedfiber.errors import InputError
-from sedfiber.learning.forecast import ForecastModel
-from sedfiber.learning.model_files import (
+from sedfiber.core.errors import InputError
+from sedfiber.reduced.forecast_start import Start
+from sedfiber.reduced.model_files import (
     load_autoencoder,
     load_forecast_model,
     save_autoencoder,
     save_forecast_model,
 )
-from sedfiber.learning.settings import AutoencoderSettings, NodeSettings
-from sedfiber.learning.start import Start
-from sedfiber.learning.train_autoencoder import train_autoencoder
-from sedfiber.learning.train_node import train_node
+from sedfiber.reduced.torch_forecast import ForecastModel
+from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
+from sedfiber.reduced.training.train_autoencoder import train_autoencoder
+from sedfiber.reduced.training.train_node import train_node
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(8,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=10

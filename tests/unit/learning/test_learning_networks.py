@@ -1,7 +1,7 @@
 import pytest
 import torch
 
-from sedfiber.learning.networks import MirrorNetwork
+from sedfiber.reduced.networks import MirrorNetwork
 
 SIGNS_IN = torch.tensor([-1.0, -1.0, 1.0])
 SIGNS_OUT = torch.tensor([-1.0, 1.0, 1.0, -1.0])

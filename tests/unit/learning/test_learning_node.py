@@ -4,18 +4,18 @@ import torch
 from scipy.integrate import solve_ivp
 from tiny_fiber import settling
 
-from sedfiber.errors import InputError
-from sedfiber.learning.forecast import ForecastModel
-from sedfiber.learning.measures import forecast_error
-from sedfiber.learning.neural_ode import NeuralOde
-from sedfiber.learning.node_data import encode_samples
-from sedfiber.learning.rollout import roll_out
-from sedfiber.learning.segments import draw_segments
-from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
-from sedfiber.learning.start import Start
-from sedfiber.learning.train_autoencoder import train_autoencoder
-from sedfiber.learning.train_node import train_node
-from sedfiber.learning.train_node_source import train_node_source
+from sedfiber.core.errors import InputError
+from sedfiber.reduced.forecast_start import Start
+from sedfiber.reduced.measures import forecast_error
+from sedfiber.reduced.neural_ode import NeuralOde
+from sedfiber.reduced.torch_forecast import ForecastModel
+from sedfiber.reduced.training.node_data import encode_samples
+from sedfiber.reduced.training.rollout import roll_out
+from sedfiber.reduced.training.segments import draw_segments
+from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
+from sedfiber.reduced.training.train_autoencoder import train_autoencoder
+from sedfiber.reduced.training.train_node import train_node
+from sedfiber.reduced.training.train_node_source import train_node_source
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(16,), modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=400

@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 from tiny_fiber import N_BEADS
 
-from sedfiber.learning.dataset import mirrored
-from sedfiber.learning.pod import modal_basis, pod_basis
-from sedfiber.learning.train_autoencoder import path_even_residuals
+from sedfiber.reduced.dataset import mirrored
+from sedfiber.reduced.pod import modal_basis, pod_basis
+from sedfiber.reduced.training.train_autoencoder import path_even_residuals
 
 
 @pytest.fixture

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from tiny_fiber import N_BEADS
 
-from sedfiber.learning.sampling import path_coordinate, path_even_indices
-from sedfiber.learning.scaling import Scales, residual_history
+from sedfiber.reduced.scaling import Scales, residual_history
+from sedfiber.reduced.training.sampling import path_coordinate, path_even_indices
 
 
 def test_scaled_log_spans_the_training_range(training):

@@ -7,15 +7,15 @@ import pytest
 import torch
 from tiny_fiber import settling
 
-from sedfiber.errors import InputError, NumericalError
-from sedfiber.learning.dataset import Dataset
-from sedfiber.learning.forecast import ForecastModel
-from sedfiber.learning.model_files import save_autoencoder, save_forecast_model
-from sedfiber.learning.neural_ode import NeuralOde
-from sedfiber.learning.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
-from sedfiber.learning.train_autoencoder import train_autoencoder
-from sedfiber.learning.train_node import train_node
-from sedfiber.learning.train_node_source import train_node_source
+from sedfiber.core.errors import InputError, NumericalError
+from sedfiber.reduced.dataset import Dataset
+from sedfiber.reduced.model_files import save_autoencoder, save_forecast_model
+from sedfiber.reduced.neural_ode import NeuralOde
+from sedfiber.reduced.torch_forecast import ForecastModel
+from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
+from sedfiber.reduced.training.train_autoencoder import train_autoencoder
+from sedfiber.reduced.training.train_node import train_node
+from sedfiber.reduced.training.train_node_source import train_node_source
 
 ENCODING = AutoencoderSettings((8,), modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=20)
 NODE = NodeSettings((8,), samples_per_trajectory=8, matching_iterations=20, matching_batch_size=16)

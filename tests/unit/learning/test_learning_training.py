@@ -3,8 +3,8 @@
 import pytest
 import torch
 
-from sedfiber.errors import NumericalError
-from sedfiber.learning.training import JUMP, MOST_SKIPPED, Descent, cosine_rate, silent, soap
+from sedfiber.core.errors import NumericalError
+from sedfiber.reduced.training.training import JUMP, MOST_SKIPPED, Descent, cosine_rate, silent, soap
 
 NAMES = ("B = 100, angle_index = 3", "B = 300, angle_index = 5")
 WHICH = torch.tensor([0, 1])

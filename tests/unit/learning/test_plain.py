@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from forecast_models import distance, start_of, untrained
 
-from sedfiber.compiled.model import load_compiled
-from sedfiber.errors import InputError, NumericalError
-from sedfiber.forecasting import load_model, load_plain_model
-from sedfiber.learning.model_files import load_forecast_model, save_forecast_model
-from sedfiber.plain.model import load_plain
-from sedfiber.plain.path import LatentPath, Stuck, tolerances
+from sedfiber.core.errors import InputError, NumericalError
+from sedfiber.reduced.compiled.model import load_compiled
+from sedfiber.reduced.forecaster import load_model, load_plain_model
+from sedfiber.reduced.model_files import load_forecast_model, save_forecast_model
+from sedfiber.reduced.plain.model import load_plain
+from sedfiber.reduced.plain.path import LatentPath, Stuck, tolerances
 
 CLOSE = 1e-6  # root-mean-square bead distance over L
 T = 0.5 * np.arange(200)
@@ -140,7 +140,7 @@ def test_a_folder_without_a_model_is_refused(tmp_path):
 SLOW = ("numba", "torch", "pandas", "scipy", "matplotlib")
 IMPORTS = """
 import json, sys
-from sedfiber.cli import main
+from sedfiber.commands.cli import main
 status = main(["forecast", "--B", "1000", "--theta0", "0.7", "-o", sys.argv[1]])
 print(json.dumps([status, [name for name in sys.argv[2:] if name in sys.modules]]))
 """

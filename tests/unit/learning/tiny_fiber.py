@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sedfiber.learning.dataset import Trajectory
+from sedfiber.reduced.dataset import Trajectory
 
 N_BEADS = 5
 TRAINED = (100.0, 300.0, 1000.0)

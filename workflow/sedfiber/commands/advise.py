@@ -3,11 +3,11 @@
 import argparse
 from pathlib import Path
 
-from sedfiber.benchmarks.machine import calibrated_unit
-from sedfiber.costs.advice import Question, advice
-from sedfiber.errors import InputError
-from sedfiber.tables import read_csv
-from sedfiber.validation import positive_number, whole_number
+from sedfiber.core.csv_file import read_csv
+from sedfiber.core.errors import InputError
+from sedfiber.core.validation import positive_number, whole_number
+from sedfiber.study.costs.advice import Question, advice
+from sedfiber.study.costs.machine import calibrated_unit
 
 DEFAULT_TABLES = Path("results/tables")
 

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from sedfiber.atomic_file import require_writable
-from sedfiber.comparison import Comparison, compare, summary
-from sedfiber.tables import write_csv
-from sedfiber.trajectory import Trajectory
-from sedfiber.trajectory_file import read_trajectory
+from sedfiber.core.atomic_file import require_writable
+from sedfiber.core.csv_file import write_csv
+from sedfiber.simulation.trajectory import Trajectory
+from sedfiber.simulation.trajectory_file import read_trajectory
+from sedfiber.study.comparison import Comparison, compare, summary
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

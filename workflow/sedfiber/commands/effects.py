@@ -5,11 +5,12 @@ import json
 from dataclasses import MISSING, Field, fields
 from typing import Any
 
-from sedfiber.numerics import DEFAULT_INTEGRATOR, Numerics
 from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC
-from sedfiber.scene import HYDRODYNAMICS, MOST_BEADS, SPACES, Scene
-from sedfiber.scene_part import Part
-from sedfiber.scene_parts import PARTS
+from sedfiber.scene.fields import HYDRODYNAMICS, MOST_BEADS, SPACES
+from sedfiber.scene.numerics import DEFAULT_INTEGRATOR, Numerics
+from sedfiber.scene.part import Part
+from sedfiber.scene.parts import PARTS
+from sedfiber.scene.scene import Scene
 
 # Keys of a scene that are no parts: what they mean, and the source.
 KEYS = {

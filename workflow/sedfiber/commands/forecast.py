@@ -1,6 +1,6 @@
 """``sedfiber forecast``: forecast one fiber, or every row of a table, with a trained model.
 
-The way to one forecast imports nothing that is slow to import: see `sedfiber.plain`.
+The way to one forecast imports nothing that is slow to import: see `sedfiber.reduced.plain`.
 """
 
 import argparse
@@ -10,17 +10,17 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from sedfiber.atomic_file import require_folder, require_parquet
-from sedfiber.errors import InputError, SedfiberError
-from sedfiber.model_folder import SHIPPED
-from sedfiber.scene import Scene
-from sedfiber.trajectory_file import write_trajectory
-from sedfiber.validation import positive_number
+from sedfiber.core.atomic_file import require_folder, require_parquet
+from sedfiber.core.errors import InputError, SedfiberError
+from sedfiber.core.validation import positive_number
+from sedfiber.reduced.model_folder import SHIPPED
+from sedfiber.reduced.strictness import refusal, warning_line
+from sedfiber.scene.scene import Scene
+from sedfiber.simulation.trajectory_file import write_trajectory
 
 if TYPE_CHECKING:
-    from sedfiber.forecasting import Forecaster
-    from sedfiber.start_table import TableStart
-    from sedfiber.trajectory import Trajectory
+    from sedfiber.reduced.forecaster import Forecaster
+    from sedfiber.reduced.start_table import TableStart
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -64,7 +64,7 @@ def _run_one(args: argparse.Namespace, interval: float, t_end: float | None) -> 
     require_parquet(args.output)
     shape = None if args.shape is None else {"file": args.shape}
     trajectory = _model(args).settle(scene.B, scene.theta0, interval, t_end, shape)
-    words = _doubts(trajectory, args.strict)
+    words = warning_line(trajectory, args.strict)
     if words:
         _warn(words)
     write_trajectory(trajectory, args.output)
@@ -72,8 +72,8 @@ def _run_one(args: argparse.Namespace, interval: float, t_end: float | None) -> 
 
 def _run_table(args: argparse.Namespace, interval: float, t_end: float | None) -> None:
     """Nothing is written before every row is known to be good; --strict knows an odd end only when it comes to it."""
-    from sedfiber.progress_bar import with_progress
-    from sedfiber.start_table import read_starts
+    from sedfiber.core.progress_bar import with_progress
+    from sedfiber.reduced.start_table import read_starts
 
     for key in ("B", "theta0", "shape"):
         if getattr(args, key) is not None:
@@ -85,7 +85,7 @@ def _run_table(args: argparse.Namespace, interval: float, t_end: float | None) -
         with _at(start.place):
             words = "; ".join(model.warnings(start.B, start.theta0, _shape(start)))
         if words and args.strict:
-            raise _refused(f"{start.place}: {words}")
+            raise refusal(f"{start.place}: {words}")
     require_folder(args.output)
     doubts = [_write(args, model, start, interval, t_end) for start in with_progress(starts)]
     if any(doubts):
@@ -99,7 +99,7 @@ def _write(
     """Forecast a row and write its file; its warnings."""
     with _at(start.place):
         trajectory = model.settle(start.B, start.theta0, interval, t_end, _shape(start))
-    words = _doubts(trajectory, args.strict, f"{start.place}: ")
+    words = warning_line(trajectory, args.strict, f"{start.place}: ")
     write_trajectory(trajectory, args.output / f"{start.name}.parquet")
     return words
 
@@ -113,27 +113,15 @@ def _at(place: str) -> Iterator[None]:
         raise type(error)(f"{place}: {error}") from None
 
 
-def _doubts(trajectory: "Trajectory", strict: bool, place: str = "") -> str:
-    """The warnings that the file will hold, in one line; raises InputError for any with --strict."""
-    words = "; ".join(trajectory.metadata["model"]["warnings"])
-    if words and strict:
-        raise _refused(place + words)
-    return place + words if words else ""
-
-
 def _shape(start: "TableStart") -> dict | None:
     return None if start.shape is None else {"file": start.shape}
 
 
 def _model(args: argparse.Namespace) -> "Forecaster":
-    from sedfiber.forecasting import load_plain_model  # bad input fails before its imports
+    from sedfiber.reduced.forecaster import load_plain_model  # bad input fails before its imports
 
     return load_plain_model(args.model)
 
 
 def _warn(words: str) -> None:
     print(f"sedfiber forecast: warning: {words}", file=sys.stderr)
-
-
-def _refused(words: str) -> InputError:
-    return InputError(f"strict: {words}; give values of the training, or leave out --strict")

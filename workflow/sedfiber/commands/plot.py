@@ -5,13 +5,13 @@ import math
 import textwrap
 from pathlib import Path
 
-from sedfiber.atomic_file import require_writable
-from sedfiber.errors import InputError
+from sedfiber.core.atomic_file import require_writable
+from sedfiber.core.errors import InputError
+from sedfiber.core.validation import refused
 from sedfiber.figures.scene import draw_scene
 from sedfiber.figures.style import B_SYMBOL, save_picture
-from sedfiber.trajectory import Trajectory
-from sedfiber.trajectory_file import read_trajectory
-from sedfiber.validation import refused
+from sedfiber.simulation.trajectory import Trajectory
+from sedfiber.simulation.trajectory_file import read_trajectory
 
 SUFFIXES = (".png", ".svg")
 _TITLE_WIDTH = 110  # letters

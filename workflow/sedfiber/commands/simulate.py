@@ -4,15 +4,16 @@ import argparse
 from dataclasses import replace
 from pathlib import Path
 
-from sedfiber.angles import angle_index, angle_of
-from sedfiber.atomic_file import require_parquet
-from sedfiber.errors import InputError
-from sedfiber.numerics import DEFAULT_INTEGRATOR, Numerics
+from sedfiber.core.atomic_file import require_parquet
+from sedfiber.core.errors import InputError
+from sedfiber.core.progress_bar import simulated_time
 from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC
-from sedfiber.progress_bar import simulated_time
-from sedfiber.scene import HYDRODYNAMICS, SPACES, Scene
-from sedfiber.simulation import simulate
-from sedfiber.trajectory_file import write_trajectory
+from sedfiber.scene.fields import HYDRODYNAMICS, SPACES
+from sedfiber.scene.numerics import DEFAULT_INTEGRATOR, Numerics
+from sedfiber.scene.scene import Scene
+from sedfiber.simulation.run import simulate
+from sedfiber.simulation.trajectory_file import write_trajectory
+from sedfiber.study.angles import angle_index, angle_of
 
 _OPTIONS = ("B", "theta0", "n_beads", "space", "hydrodynamics", "shape", "tilt", "seed")
 
@@ -71,7 +72,7 @@ def _requested(args: argparse.Namespace, index: int | None) -> tuple[Scene, Nume
         what["theta0"] = angle_of(index)
     how = _given(args, Numerics.__dataclass_fields__)
     if args.scene is not None:
-        from sedfiber.scene_file import read_scene  # YAML: the study's 227 runs do without
+        from sedfiber.scene.scene_file import read_scene  # YAML: the study's 227 runs do without
 
         scene, numerics = read_scene(args.scene, **what)
         return scene, replace(numerics, **how)

@@ -4,10 +4,10 @@ import argparse
 import json
 from pathlib import Path
 
-from sedfiber.atomic_file import require_writable, write_text
-from sedfiber.physics.spectrum import spectrum
-from sedfiber.physics.steady import BRANCHES, SteadyState, terminal_state
-from sedfiber.scene import HYDRODYNAMICS, Scene
+from sedfiber.core.atomic_file import require_writable, write_text
+from sedfiber.scene.scene import HYDRODYNAMICS, Scene
+from sedfiber.simulation.equilibria.spectrum import spectrum
+from sedfiber.simulation.equilibria.steady import BRANCHES, SteadyState, terminal_state
 
 UNITS = {
     "velocity": "U_s",

@@ -5,10 +5,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from sedfiber.bars import WORST_BARS
 from sedfiber.figures.forecasters import Forecaster, forecasters
 from sedfiber.figures.style import B_SYMBOL, BLACK, GREY, PAGE_WIDTH, SET_TITLES, letter_panel, place_legend
 from sedfiber.figures.table_input import in_set, select_columns
+from sedfiber.study.targets import WORST_BARS
 
 GROUP_HEIGHT = 0.75  # share of the distance between two ℬ that is taken by the forecasters' rows
 

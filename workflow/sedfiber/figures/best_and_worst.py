@@ -9,13 +9,13 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from sedfiber._typing import Array
-from sedfiber.errors import InputError
+from sedfiber.core.array_types import Array
+from sedfiber.core.csv_file import read_csv
+from sedfiber.core.errors import InputError
 from sedfiber.figures.drawing import add_output_arguments, write_drawing
 from sedfiber.figures.falls import Fall, read_falls
 from sedfiber.figures.table_input import in_set, select_columns
-from sedfiber.learning.measures import forecast_error
-from sedfiber.tables import read_csv
+from sedfiber.reduced.measures import forecast_error
 
 LINES = {"best": "-", "worst": (0, (4, 1.5))}  # as in the source
 _MOST_BEADS = 16

@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, FancyArrowPatch, FancyBboxPatch, Patch, Polygon
 from matplotlib.path import Path
 
-from sedfiber._typing import Array
+from sedfiber.core.array_types import Array
 from sedfiber.figures.style import B_SYMBOL, BLACK, BLUE, GREEN, GREY, VERMILION
 
 POSITIONS, SHAPE, RESIDUAL, LATENT, CENTRE = "X̂", "X̄", "X̌", "h", "c"  # mathtext has no caron that fits

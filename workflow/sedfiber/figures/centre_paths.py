@@ -3,7 +3,7 @@
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sedfiber._typing import Array
+from sedfiber.core.array_types import Array
 from sedfiber.figures.falls import Fall
 from sedfiber.figures.style import B_SYMBOL, COLUMN_WIDTH, GREY, SEQUENTIAL, letter_panel, place_legend
 

@@ -3,8 +3,8 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from sedfiber.comparison import Comparison
 from sedfiber.figures.style import BLACK, BLUE, ORANGE, PAGE_WIDTH, place_legend
+from sedfiber.study.comparison import Comparison
 
 _DECADES = 1e-8  # of the largest: what is less is not worth an axis
 

@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from sedfiber._typing import Array
+from sedfiber.core.array_types import Array
 from sedfiber.figures.best_and_worst import Pair, thinned
 from sedfiber.figures.falls import snapshots
 from sedfiber.figures.style import B_SYMBOL, BLACK, PAGE_WIDTH, SEQUENTIAL, VERMILION, place_legend

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
+from sedfiber.core.validation import one_of
 from sedfiber.figures.cost_omissions import left_out
 from sedfiber.figures.footer import place_legend_above_footer, write_footer
 from sedfiber.figures.style import (
@@ -25,7 +26,6 @@ from sedfiber.figures.style import (
     letter_panel,
 )
 from sedfiber.figures.table_input import select_columns
-from sedfiber.validation import one_of
 
 LOOKS = {  # method: colour, marker
     "LSODA": (BLACK, "o"),

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from sedfiber.core.validation import one_of
 from sedfiber.figures.footer import place_legend_above_footer, write_footer
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -21,7 +22,6 @@ from sedfiber.figures.style import (
     set_plain_ticks,
 )
 from sedfiber.figures.table_input import in_set, select_columns
-from sedfiber.validation import one_of
 
 VARIANTS = {  # words and colour, as in the figure of reconstruction losses
     "none": (f"no {B_SYMBOL}", GREEN),

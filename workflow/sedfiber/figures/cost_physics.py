@@ -4,11 +4,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from sedfiber.core.validation import one_of
 from sedfiber.figures.cost_growth import GROWING, draw_growing, draw_parts
 from sedfiber.figures.footer import write_footer
 from sedfiber.figures.style import B_SYMBOL, BLACK, BLUE, GREY, ORANGE, PAGE_WIDTH, VERMILION, letter_panel, scientific
 from sedfiber.figures.table_input import select_columns
-from sedfiber.validation import one_of
 
 LOOKS = {  # mobility: colour, line; the first two lie on each other
     "RPY": (BLUE, "-"),

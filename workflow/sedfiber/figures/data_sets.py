@@ -6,7 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from sedfiber.errors import InputError
+from sedfiber.core.errors import InputError
 from sedfiber.figures.style import B_SYMBOL, GREEN, ORANGE, PAGE_WIDTH, SKY
 from sedfiber.figures.table_input import select_columns
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from sedfiber.atomic_file import require_writable
+from sedfiber.core.atomic_file import require_writable
 from sedfiber.figures.style import save_figure
 
 

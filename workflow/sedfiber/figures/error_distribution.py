@@ -7,7 +7,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from sedfiber.errors import InputError
+from sedfiber.core.errors import InputError
 from sedfiber.figures.style import (
     B_SYMBOL,
     PAGE_WIDTH,

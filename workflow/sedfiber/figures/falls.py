@@ -18,10 +18,10 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import PowerNorm
 from matplotlib.figure import Figure
 
-from sedfiber._typing import Array, History, Times
-from sedfiber.errors import InputError
+from sedfiber.core.array_types import Array, History, Times
+from sedfiber.core.errors import InputError
+from sedfiber.core.parquet_file import bead_count, coordinate_names
 from sedfiber.figures.style import SEQUENTIAL
-from sedfiber.trajectory_file import bead_count, coordinate_names
 
 KEYS = ("split", "B", "angle_index", "theta0", "t")
 TIME_NORM = PowerNorm(0.5, 0.0, 1.0)  # of t/T: most of what happens happens early

@@ -6,7 +6,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from sedfiber.bars import ENSEMBLE_BARS, SOURCE_BOUND
+from sedfiber.core.validation import one_of, positive_number
 from sedfiber.figures.forecasters import Forecaster, forecasters
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -22,7 +22,7 @@ from sedfiber.figures.style import (
     set_plain_ticks,
 )
 from sedfiber.figures.table_input import in_set, select_columns
-from sedfiber.validation import one_of, positive_number
+from sedfiber.study.targets import ENSEMBLE_BARS, SOURCE_BOUND
 
 ALL = "all"  # in column B: the mean over every ℬ of a set
 PARTS = {"E_shape": ("-", r"$E_\mathrm{shape}$"), "E_pos": (":", r"$E_\mathrm{pos}$")}

@@ -8,7 +8,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from sedfiber._typing import Array
+from sedfiber.core.array_types import Array
 from sedfiber.figures.best_and_worst import LINES, Pair, best_and_worst, pairs_of
 from sedfiber.figures.style import (
     B_SYMBOL,

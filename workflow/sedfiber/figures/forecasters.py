@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from sedfiber.errors import InputError
+from sedfiber.core.errors import InputError
+from sedfiber.core.validation import one_of
 from sedfiber.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
-from sedfiber.validation import one_of
 
 NAMES = {"rollout": "this study", "source": "source's recipe", "lookup": "lookup, no model"}
 

@@ -4,6 +4,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from sedfiber.core.validation import one_of
 from sedfiber.figures.forecasters import Forecaster, forecasters
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -15,7 +16,6 @@ from sedfiber.figures.style import (
     set_plain_ticks,
 )
 from sedfiber.figures.table_input import in_set, select_columns
-from sedfiber.validation import one_of
 
 _LINEAR = 0.1  # a/U_s: lags within this are on the linear part of the axis
 _DODGE = 1.05  # factor of ℬ between two forecasters' points

@@ -7,7 +7,8 @@ from textwrap import fill
 
 from matplotlib.figure import Figure
 
-from sedfiber.errors import InputError
+from sedfiber.core.errors import InputError
+from sedfiber.core.validation import finite_number, one_of, whole_number
 from sedfiber.figures.blocks import (
     ABSENT,
     BUNDLE,
@@ -30,8 +31,7 @@ from sedfiber.figures.blocks import (
     place_keys,
 )
 from sedfiber.figures.style import B_SYMBOL, BLUE, GREEN, PAGE_WIDTH
-from sedfiber.learning.settings import VARIANTS
-from sedfiber.validation import finite_number, one_of, whole_number
+from sedfiber.reduced.training.settings import VARIANTS
 
 ROW, LANE, BUS = 1.2, 0.28, 2.2  # heights of the shape's row, the centre bead's lane and ℬ's line
 NOW, LATER, REST = bent(0.75, 0.35, 0.28), bent(0.4, 0.75, 0.28), bent(0.0, 1.2, 0.28)  # sketches, inches

@@ -6,10 +6,10 @@ from matplotlib.collections import PatchCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle
 
-from sedfiber._typing import Array
-from sedfiber.errors import InputError
+from sedfiber.core.array_types import Array
+from sedfiber.core.errors import InputError
 from sedfiber.figures.style import BLACK, COLUMN_WIDTH, GREY, SKY, VERMILION, letter_panel
-from sedfiber.trajectory import Trajectory
+from sedfiber.simulation.trajectory import Trajectory
 
 # all in L, in the sketch
 DEPTHS = (0.48, 0.88)  # of the shapes between start and end

@@ -4,8 +4,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from sedfiber.bars import RECONSTRUCTION_BAR
-from sedfiber.errors import InputError
+from sedfiber.core.errors import InputError
 from sedfiber.figures.style import (
     B_SYMBOL,
     BLACK,
@@ -22,6 +21,7 @@ from sedfiber.figures.style import (
 )
 from sedfiber.figures.table_input import in_set, select_columns
 from sedfiber.figures.variant_diagrams import draw_variant
+from sedfiber.study.targets import RECONSTRUCTION_BAR
 
 DODGE = 0.06  # shift of each curve along d, so that bars of one d stand side by side
 WORST = "loss_worst_sample"  # which the mean over samples hides

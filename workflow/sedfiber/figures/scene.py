@@ -6,9 +6,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
-from sedfiber._typing import Array
+from sedfiber.core.array_types import Array
 from sedfiber.figures.style import BLACK, BLUE, GREY, ORANGE, PAGE_WIDTH, PURPLE, VERMILION, place_legend
-from sedfiber.trajectory import Trajectory
+from sedfiber.simulation.trajectory import Trajectory
 
 SNAPSHOTS = 8
 FIBER_COLORS = (BLUE, VERMILION, ORANGE, PURPLE)

@@ -6,9 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sedfiber.angles import ANGLES_PER_HALF_TURN
 from sedfiber.figures.falls import Fall, add_time_bar, draw_shapes, snapshots, time_colors
 from sedfiber.figures.style import B_SYMBOL, BLACK, PAGE_WIDTH, VERMILION
+from sedfiber.study.angles import ANGLES_PER_HALF_TURN
 
 SNAPSHOTS = 12  # of each fall, the first and the last among them
 COLUMNS = 6

@@ -7,9 +7,9 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sedfiber._typing import Array
-from sedfiber.angles import ANGLES_PER_HALF_TURN
-from sedfiber.errors import InputError
+from sedfiber.core.array_types import Array
+from sedfiber.core.errors import InputError
+from sedfiber.core.validation import one_of
 from sedfiber.figures.falls import Fall, add_time_bar, draw_shapes, snapshots, time_colors
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -23,8 +23,8 @@ from sedfiber.figures.style import (
     place_legend,
 )
 from sedfiber.figures.table_input import select_columns
-from sedfiber.regimes import REGIMES
-from sedfiber.validation import one_of
+from sedfiber.study.angles import ANGLES_PER_HALF_TURN
+from sedfiber.study.regimes import REGIMES
 
 SNAPSHOTS = 9
 GAP = 0.08  # L, between shapes

@@ -9,10 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from sedfiber._typing import Array
+from sedfiber.core.array_types import Array
+from sedfiber.core.validation import one_of
 from sedfiber.figures.style import B_SYMBOL, BLACK, BLUE, GREEN, GREY, PAGE_WIDTH, PURPLE, VERMILION, letter_panel
 from sedfiber.figures.table_input import select_columns
-from sedfiber.validation import one_of
 
 BRANCHES = {"U": BLUE, "W": VERMILION, "middle": GREEN, "vertical": PURPLE}
 LABELLED_AT = {"U": 0.4, "W": 1.0, "middle": 0.45, "vertical": 0.4}  # of the way along the branch

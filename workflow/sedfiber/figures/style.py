@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.style import context
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
 
-from sedfiber.atomic_file import replaced_when_done
+from sedfiber.core.atomic_file import replaced_when_done
 
 COLUMN_WIDTH = 3.4  # inches; one column of a two-column page
 PAGE_WIDTH = 7.0  # inches; both columns

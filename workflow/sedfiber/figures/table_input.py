@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from sedfiber.errors import InputError
+from sedfiber.core.csv_file import read_csv
+from sedfiber.core.errors import InputError
 from sedfiber.figures.drawing import add_output_arguments, write_drawing
-from sedfiber.tables import read_csv
 
 TEST_SETS = ("A", "B")
 

@@ -5,7 +5,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sedfiber.errors import InputError
+from sedfiber.core.errors import InputError
 from sedfiber.figures.style import (
     B_SYMBOL,
     BLACK,

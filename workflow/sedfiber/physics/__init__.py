@@ -1,7 +1,1 @@
-"""The mechanics of fibers: effects, mobilities, integrators, steady states."""
-
-from pathlib import Path
-
-from sedfiber.kernel_cache import forget_stale_kernels
-
-forget_stale_kernels(Path(__file__).parent)
+"""Forces, mobilities, flows and integrators on arrays of bead positions; no module knows a scene."""

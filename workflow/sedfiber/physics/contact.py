@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from sedfiber._typing import Matrix, Positions
+from sedfiber.core.array_types import Matrix, Positions
 from sedfiber.physics.kernel import kernel
 
 

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sedfiber._typing import Matrix, Positions
+from sedfiber.core.array_types import Matrix, Positions
 from sedfiber.physics.flow_couple import COUPLE, StrainingFlow, bonded, direction, share, strained
 from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_forms import FAST

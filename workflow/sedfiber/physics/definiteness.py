@@ -6,7 +6,7 @@ beads then attract each other without limit.  The overlap form, and no hydrodyna
 
 import numpy as np
 
-from sedfiber._typing import Positions
+from sedfiber.core.array_types import Positions
 from sedfiber.physics.protocols import Mobility
 
 CLOSE = 1.9  # a: where every two beads are further apart than this, RPY is positive definite

@@ -30,7 +30,7 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
-from sedfiber._typing import Array, Band, Positions
+from sedfiber.core.array_types import Array, Band, Positions
 from sedfiber.physics.kernel import kernel
 
 COUPLE = 4.0 / 3.0  # on a sphere held in fluid that turns at unit rate: 8πμa³ in 6πμa²U_s

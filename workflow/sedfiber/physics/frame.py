@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sedfiber._typing import Array, Band, Matrix, Positions, State
+from sedfiber.core.array_types import Array, Band, Matrix, Positions, State
 from sedfiber.physics.kernel import kernel
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sedfiber._typing import Positions
+from sedfiber.core.array_types import Positions
 from sedfiber.physics.kernel import kernel
 
 

@@ -8,7 +8,7 @@ and the others their images, so the symmetry is exact by construction.
 
 import numpy as np
 
-from sedfiber._typing import Array, History, Matrix, Positions, State
+from sedfiber.core.array_types import Array, History, Matrix, Positions, State
 from sedfiber.physics.protocols import Mobility
 from sedfiber.physics.system import System
 

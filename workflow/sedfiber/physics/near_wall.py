@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sedfiber._typing import Band, Matrix, Positions
+from sedfiber.core.array_types import Band, Matrix, Positions
 from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.wall import WallCorrection

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sedfiber._typing import Band, Matrix, Positions
+from sedfiber.core.array_types import Band, Matrix, Positions
 from sedfiber.physics import pair_plane, pair_volume
 from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_forms import OSEEN, RPY, RPY_OVERLAP, coefficients

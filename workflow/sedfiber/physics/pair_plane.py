@@ -7,7 +7,7 @@ twice the time.
 
 import numpy as np
 
-from sedfiber._typing import Array, Band, Matrix, Positions
+from sedfiber.core.array_types import Array, Band, Matrix, Positions
 from sedfiber.physics.kernel import kernel
 from sedfiber.physics.pair_forms import FAST, REACH, coefficients
 

@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from sedfiber._typing import Array, Matrix, Positions
+from sedfiber.core.array_types import Array, Matrix, Positions
 from sedfiber.physics.kernel import kernel
 
 

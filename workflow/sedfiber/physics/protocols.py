@@ -7,7 +7,7 @@ positions in the laboratory, which a wall or a flow needs.
 
 from typing import Protocol
 
-from sedfiber._typing import Band, Matrix, Positions, State
+from sedfiber.core.array_types import Band, Matrix, Positions, State
 
 TO_THE_LAST = 1 << 62  # end of a range of beads that reaches to the last one
 

@@ -5,7 +5,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from sedfiber._typing import Band, Positions
+from sedfiber.core.array_types import Band, Positions
 from sedfiber.physics.kernel import kernel
 from sedfiber.physics.protocols import TO_THE_LAST
 

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from sedfiber._typing import Band, History, Matrix, Positions, State
+from sedfiber.core.array_types import Band, History, Matrix, Positions, State
 from sedfiber.physics import frame
 from sedfiber.physics.definiteness import OVERLAP_REMEDY, indefinite_words, wall_blame
 from sedfiber.physics.protocols import ConservativeForce, Flow, Force, Mobility

@@ -33,7 +33,7 @@ from functools import cached_property
 
 import numpy as np
 
-from sedfiber._typing import Array, Matrix, Positions
+from sedfiber.core.array_types import Array, Matrix, Positions
 from sedfiber.physics.kernel import kernel
 
 STEP = 2.0**-100  # a power of two divides without rounding

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from sedfiber._typing import Band, Positions
+from sedfiber.core.array_types import Band, Positions
 from sedfiber.physics.kernel import kernel
 
 

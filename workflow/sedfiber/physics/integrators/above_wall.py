@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from sedfiber._typing import State
+from sedfiber.core.array_types import State
 from sedfiber.physics.definiteness import wall_blame
 from sedfiber.physics.integrators.base import March
 

@@ -7,8 +7,8 @@ from math import isfinite
 
 import numpy as np
 
-from sedfiber._typing import State
-from sedfiber.errors import NumericalError
+from sedfiber.core.array_types import State
+from sedfiber.core.errors import NumericalError
 from sedfiber.physics.protocols import Equations
 
 MOST_STEPS = 20_000  # in one sample

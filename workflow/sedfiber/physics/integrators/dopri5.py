@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import ode
 
-from sedfiber._typing import State
+from sedfiber.core.array_types import State
 from sedfiber.physics.integrators.base import March
 
 _STEPS_PER_CALL = 1000  # dopri5 tests for stiffness, and gives up, in blocks of this many

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.integrate import BDF, OdeSolver, Radau
 
-from sedfiber._typing import Matrix, State
+from sedfiber.core.array_types import Matrix, State
 from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST, MOST_STEPS, March
 
 

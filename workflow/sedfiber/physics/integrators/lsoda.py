@@ -5,7 +5,7 @@ from collections.abc import Iterator
 
 from scipy.integrate import ode
 
-from sedfiber._typing import State
+from sedfiber.core.array_types import State
 from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST, MOST_STEPS, March
 
 _STEPS, _JACOBIANS = 10, 12  # places of ODEPACK's counters in its integer work array

@@ -21,7 +21,7 @@ from collections.abc import Iterator
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, lu_factor, lu_solve, solve_triangular
 
-from sedfiber._typing import Matrix, Positions, State
+from sedfiber.core.array_types import Matrix, Positions, State
 from sedfiber.physics.integrators.base import March, Tolerances
 from sedfiber.physics.system import System
 

@@ -1,0 +1,45 @@
+"""``sedfiber forecast_test_set``: forecast every trajectory of a split from its first sample."""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from sedfiber.commands.steps._training import add_data_arguments
+from sedfiber.core.atomic_file import require_writable
+from sedfiber.reduced.dataset import Dataset, read_dataset
+from sedfiber.reduced.dataset_file import write_dataset
+from sedfiber.reduced.forecast_start import Start
+from sedfiber.reduced.model_files import load_forecast_model
+from sedfiber.reduced.torch_forecast import ForecastModel
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """The model, the true trajectories and their steady shapes."""
+    add_data_arguments(parser)
+    parser.add_argument("--model", type=Path, required=True, help="folder of a forecast model")
+    parser.add_argument("-o", "--output", type=Path, required=True, help="Parquet file to write")
+
+
+def run(args: argparse.Namespace) -> None:
+    """Forecast at the samples of the true trajectories; same layout as the data set."""
+    torch.set_num_threads(1)
+    require_writable(args.output)
+    truth = read_dataset(args.dataset, args.terminal_shapes)
+    write_dataset(forecast_all(load_forecast_model(args.model), truth), args.output)
+
+
+def forecast_all(model: ForecastModel, truth: Dataset) -> list:
+    """Every trajectory of ``truth`` with its positions replaced by the forecast."""
+    longest = max((trajectory.t for trajectory in truth), key=len)
+    positions = model.forecast_many([Start.of(trajectory) for trajectory in truth], longest)
+    return [_cut(trajectory, longest, rows) for trajectory, rows in zip(truth, positions, strict=True)]
+
+
+def _cut(trajectory, t: np.ndarray, positions: np.ndarray):
+    n = len(trajectory.t)
+    if not np.array_equal(trajectory.t, t[:n]):
+        raise ValueError("trajectories of one split must share their sample times")
+    return replace(trajectory, positions=positions[:n])

@@ -1,0 +1,58 @@
+"""``sedfiber tabulate_timings``: time of every stage, summed from the benchmark files."""
+
+import argparse
+from pathlib import Path
+
+import pandas as pd
+
+from sedfiber.core.atomic_file import require_writable
+from sedfiber.core.csv_file import write_csv
+from sedfiber.core.errors import InputError
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Benchmark files of all jobs."""
+    parser.add_argument("benchmarks", nargs="+", type=Path, help="Snakemake benchmark files, RULE.tsv or RULE/*.tsv")
+    parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write")
+
+
+def run(args: argparse.Namespace) -> None:
+    """One row per rule, then the sum, then what a user waited from the first start to the last end."""
+    require_writable(args.output)
+    jobs = pd.DataFrame([_job(path) for path in args.benchmarks])
+    stages = [_stage(rule, group) for rule, group in jobs.groupby("rule", sort=False)]
+    write_csv(pd.DataFrame([*stages, _stage("all", jobs), _elapsed(jobs)]), args.output)
+
+
+def _job(path: Path) -> dict:
+    try:
+        row = pd.read_csv(path, sep="\t").iloc[-1]
+        rule = path.stem if path.parent.name == "benchmarks" else path.parent.name
+        seconds, end = float(row["s"]), path.stat().st_mtime
+        return {"rule": rule, "seconds": seconds, "end": end, "memory_MB": _number(row["max_rss"])}
+    except (OSError, KeyError, IndexError, ValueError) as error:
+        raise InputError(f"input: {str(path)!r} is not a benchmark file ({error})") from None
+
+
+def _number(value: object) -> float:
+    """Snakemake writes ``NA`` for a job too short to be sampled."""
+    return float(pd.to_numeric(value, errors="coerce"))
+
+
+def _stage(rule: str, jobs: pd.DataFrame) -> dict:
+    """``minutes_at_j2`` is the sum spread over two jobs at a time, the default of ``make reproduce``."""
+    return {
+        "stage": rule,
+        "jobs": len(jobs),
+        "seconds_total": round(jobs["seconds"].sum(), 2),
+        "seconds_median": round(jobs["seconds"].median(), 2),
+        "seconds_max": round(jobs["seconds"].max(), 2),
+        "minutes_at_j2": round(jobs["seconds"].sum() / 120.0, 2),
+        "memory_MB_max": jobs["memory_MB"].max(),
+    }
+
+
+def _elapsed(jobs: pd.DataFrame) -> dict:
+    """Wall time with the workflow's own overhead; only meaningful when all jobs ran in one go."""
+    start = (jobs["end"] - jobs["seconds"]).min()
+    return {"stage": "elapsed", "jobs": len(jobs), "seconds_total": round(jobs["end"].max() - start, 2)}

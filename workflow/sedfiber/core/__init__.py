@@ -1,0 +1,1 @@
+"""What every room uses: errors, checks of single values, files that appear whole, compiled kernels."""

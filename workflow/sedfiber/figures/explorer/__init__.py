@@ -1,0 +1,1 @@
+"""The reduced model as one HTML page that forecasts in the browser."""

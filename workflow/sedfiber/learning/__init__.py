@@ -1,1 +1,0 @@
-"""The reduced-order model: autoencoder, neural ODE, forecasts, baselines and error measures."""

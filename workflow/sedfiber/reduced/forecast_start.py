@@ -1,0 +1,32 @@
+"""What a forecast starts from; without torch, for compiled forecasts need none."""
+
+from dataclasses import dataclass
+
+from sedfiber.core.array_types import Array, Positions
+from sedfiber.reduced.dataset import Trajectory
+
+
+@dataclass(frozen=True)
+class Start:
+    """What a forecast starts from: ``initial`` positions (N, 3), and the steady state at ℬ.
+
+    ``terminal`` (N, 3) is relative to the centre bead, ``terminal_velocity`` has shape (3,).
+    ``nearest`` is the nearest trained ℬ with its terminal shape, where ℬ is outside the
+    training range; without it the networks are asked at ℬ itself.
+    """
+
+    B: float
+    initial: Positions
+    terminal: Positions
+    terminal_velocity: Array
+    nearest: tuple[float, Positions] | None = None
+
+    @property
+    def pace(self) -> float:
+        """Factor on dh/dt: ℬ/ℬ* below the training range, else 1."""
+        return 1.0 if self.nearest is None else min(1.0, self.B / self.nearest[0])
+
+    @classmethod
+    def of(cls, trajectory: Trajectory) -> "Start":
+        """The start of a stored trajectory: its first sample and its steady state."""
+        return cls(trajectory.B, trajectory.positions[0], trajectory.terminal, trajectory.terminal_velocity)

@@ -1,0 +1,1 @@
+"""How autoencoders and neural ODEs are trained."""

@@ -1,0 +1,1 @@
+"""What a user describes, and how it becomes a system of equations."""

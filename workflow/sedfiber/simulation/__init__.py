@@ -1,0 +1,1 @@
+"""Runs of a scene: integration, settling, checks, audit, and the trajectory file."""

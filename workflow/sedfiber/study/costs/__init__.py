@@ -1,0 +1,1 @@
+"""What accuracy costs in time: each way to a trajectory, timed and judged."""

@@ -1,0 +1,1 @@
+"""Cases where programs of this kind usually fail, each with a reference."""
