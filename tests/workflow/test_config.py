@@ -10,8 +10,8 @@ import pytest
 import yaml
 
 from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
+from sedfiber.study.code_fingerprint import PACKAGE, command_module, module_sources
 from sedfiber.study.hard_cases.listing import CASES
-from sedfiber.study.source_files import PACKAGE, command_sources, module_sources
 
 REPOSITORY = Path(__file__).parents[2]
 
@@ -105,12 +105,12 @@ def test_conda_environments_agree_with_the_lock_file(path):
 
 def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
     """Physics for a simulation, no learning; figures only for plots."""
-    names = {str(path.relative_to(PACKAGE)) for path in command_sources("simulate")}
+    names = {str(path.relative_to(PACKAGE)) for path in module_sources(command_module("simulate"))}
     assert {"physics/bending.py", "physics/pair_mobility.py", "scene/scene.py", "commands/simulate.py"} <= names
-    assert not any(name.startswith(("learning", "figures")) for name in names)
-    drawn = {str(path.relative_to(PACKAGE)) for path in command_sources("plot_baselines")}
+    assert not any(name.startswith(("reduced", "figures")) for name in names)
+    drawn = {str(path.relative_to(PACKAGE)) for path in module_sources(command_module("plot_baselines"))}
     assert "figures/style.py" in drawn
-    assert not any(name.startswith(("learning", "physics")) for name in drawn)
+    assert not any(name.startswith(("reduced", "physics")) for name in drawn)
 
 
 # where the import's name is not the package's
@@ -145,7 +145,10 @@ def test_conda_environments_hold_what_their_commands_import(environment, command
     available = {package.partition("==")[0] for package in listed}
     for command in commands:
         by_name = [f"hard_cases.{case.module}" for case in CASES] if command == "measure_hard_case" else []
-        for path in {*command_sources(command), *(path for module in by_name for path in module_sources(module))}:
+        for path in {
+            *module_sources(command_module(command)),
+            *(path for module in by_name for path in module_sources(module)),
+        }:
             foreign = {OUTSIDE.get(name, name) for name in _imported(path) - set(sys.stdlib_module_names)}
             assert foreign - {"sedfiber"} <= available, f"{path.name} of {command}"
 

@@ -73,9 +73,9 @@ def test_a_hard_case_reruns_with_the_module_that_measures_it(empty):
     result = "results/hard_cases/nonsense_starts.csv"
     run = empty.snakemake("-j1", result)
     assert run.returncode == 0, run.stdout + run.stderr
-    empty.append("workflow/sedfiber/study/hard_cases/tolerance_cases.py", "# a comment")
+    empty.append("workflow/sedfiber/study/hard_cases/tolerance_cases.py", "ANOTHER = 1")
     assert empty.planned(result) == {}
-    empty.append("workflow/sedfiber/study/hard_cases/start_cases.py", "# a comment")
+    empty.append("workflow/sedfiber/study/hard_cases/start_cases.py", "ANOTHER = 1")
     assert empty.planned(result) == {"measure_hard_case": 1}
 
 
@@ -137,9 +137,19 @@ def test_a_number_written_another_way_reruns_nothing(rerun):
     assert rerun.planned() == {}
 
 
+def test_reworded_comments_and_docstrings_rerun_nothing(rerun):
+    """In the module that nearly all others import, in a class, in a function, and in a rule."""
+    rerun.edit("workflow/sedfiber/core/errors.py", '"""The errors a user can meet;', '"""Errors that a user may meet;')
+    rerun.edit("workflow/sedfiber/core/errors.py", '"""A computation failed:', '"""What was computed failed:')
+    rerun.edit("workflow/sedfiber/physics/bending.py", '"""Bending: ', '"""Bending of a fiber: ')
+    rerun.append("workflow/sedfiber/physics/system.py", "# a comment")
+    rerun.append("workflow/rules/simulations.smk", "# a comment")
+    assert rerun.planned() == {}
+
+
 def test_an_edited_physics_module_reruns_simulations_and_all_that_follows(rerun):
     """Everything but nothing else: ten rules hang on the mechanics."""
-    rerun.append("workflow/sedfiber/physics/bending.py", "# edited")
+    rerun.append("workflow/sedfiber/physics/bending.py", "EDITED = 1")
     planned = rerun.planned()
     assert planned["simulate"] == 10
     assert {"aggregate_dataset", "solve_terminal_shapes"} | MODELS | FORECASTS <= set(planned)
@@ -148,7 +158,7 @@ def test_an_edited_physics_module_reruns_simulations_and_all_that_follows(rerun)
 
 def test_an_edited_learning_module_keeps_the_simulations(rerun):
     """Physics knows nothing of learning."""
-    rerun.append("workflow/sedfiber/reduced/training/train_autoencoder.py", "# edited")
+    rerun.append("workflow/sedfiber/reduced/training/train_autoencoder.py", "EDITED = 1")
     planned = rerun.planned()
     assert not {"simulate", "aggregate_dataset", "forecast_by_lookup"} & set(planned)
     assert planned["train_autoencoder"] == 8
@@ -156,13 +166,13 @@ def test_an_edited_learning_module_keeps_the_simulations(rerun):
 
 def test_an_edited_figure_module_redraws_only_that_figure(rerun):
     """Tables stay; timings and manifest follow, which hold the figure's time and checksum, and their pages."""
-    rerun.append("workflow/sedfiber/figures/baselines.py", "# edited")
+    rerun.append("workflow/sedfiber/figures/baselines.py", "EDITED = 1")
     assert set(rerun.planned()) == {"plot_baselines"} | AFTER_EVERYTHING
 
 
 def test_the_style_of_figures_redraws_all_of_them(rerun):
     """One style module for all figures, and no table depends on it."""
-    rerun.append("workflow/sedfiber/figures/style.py", "# edited")
+    rerun.append("workflow/sedfiber/figures/style.py", "EDITED = 1")
     assert set(rerun.planned()) == FIGURES | EXPLORER | AFTER_EVERYTHING
 
 

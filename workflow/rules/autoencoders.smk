@@ -3,7 +3,6 @@
 
 rule train_autoencoder:
     input:
-        sources("train_autoencoder"),
         dataset="results/dataset/train.parquet",
         shapes="results/terminal_shapes/train.parquet",
     output:
@@ -21,6 +20,7 @@ rule train_autoencoder:
         mem_mb=2000,
         runtime=20,
     params:
+        code=code_of("train_autoencoder"),
         settings=as_json(config["autoencoders"]["settings"]),
         folder=lambda wildcards, output: Path(output[0]).parent,
     message:
@@ -33,7 +33,6 @@ rule train_autoencoder:
 
 rule tabulate_reconstruction:
     input:
-        sources("tabulate_reconstruction"),
         dataset="results/dataset/train.parquet",
         shapes="results/terminal_shapes/train.parquet",
         tests=expand("results/dataset/{split}.parquet", split=TEST_SETS),
@@ -52,6 +51,7 @@ rule tabulate_reconstruction:
         mem_mb=4000,
         runtime=10,
     params:
+        code=code_of("tabulate_reconstruction"),
         models=AUTOENCODERS,
     message:
         "tabulate the reconstruction loss of all autoencoders and of POD"

@@ -1,4 +1,4 @@
-# What all rules share: the validated configuration, names of files, and the sources of a command.
+# What all rules share: the validated configuration, names of files, and what the code of a command means.
 
 import json
 import shlex
@@ -10,7 +10,7 @@ BASE = Path(workflow.basedir)
 sys.path.insert(0, str(BASE / "workflow"))
 
 from sedfiber.study.hard_cases.listing import NAMES as HARD_CASES, case_of
-from sedfiber.study.source_files import command_sources, module_sources
+from sedfiber.study.code_fingerprint import code_fingerprint
 from sedfiber.study.configuration import SCENE_NAME, Study, as_options, scene_names
 
 STUDY = Study.from_config(config, BASE / "workflow/schemas/config.schema.yaml")
@@ -48,9 +48,12 @@ def here(path):
     return str(path.relative_to(BASE) if Path.cwd() == BASE else path)
 
 
-def sources(command):
-    """The lock file and every package file that a command's result depends on."""
-    return [here(path) for path in [BASE / "envs/requirements.lock", *command_sources(command)]]
+LOCK = BASE / "envs/requirements.lock"
+
+
+def code_of(command, *modules):
+    """What the command's result depends on besides its inputs: the meaning of its code, and the lock file."""
+    return code_fingerprint(command, modules, [LOCK])
 
 
 def trajectory(B, k):
@@ -98,10 +101,9 @@ def scene_files(scene):
     return [here(path) for path in [BASE / "scenes" / f"{scene}.yaml", *sorted(beside)]]
 
 
-def hard_case_sources(wildcards):
+def hard_case_code(wildcards):
     """What the command and the module that measures the case depend on."""
-    measured_in = module_sources(f"study.hard_cases.{case_of(wildcards.case).module}")
-    return sorted({*sources("measure_hard_case"), *map(here, measured_in)})
+    return code_of("measure_hard_case", f"study.hard_cases.{case_of(wildcards.case).module}")
 
 
 def hard_case_model(wildcards):

@@ -3,8 +3,6 @@
 
 
 rule measure_integrators:
-    input:
-        sources("measure_integrators"),
     output:
         "results/costs/integrators/B{B}_k{k}.csv",
     log:
@@ -18,6 +16,7 @@ rule measure_integrators:
         mem_mb=1000,
         runtime=10,
     params:
+        code=code_of("measure_integrators"),
         options=STUDY.integrators_options,
     message:
         "time every integrator at B={wildcards.B}, theta0={wildcards.k}π/48"
@@ -28,7 +27,6 @@ rule measure_integrators:
 
 rule tabulate_costs:
     input:
-        sources("tabulate_costs"),
         cases=lambda wildcards: COST_CASES[wildcards.table],
     output:
         "results/tables/cost_{table}.csv",
@@ -44,6 +42,8 @@ rule tabulate_costs:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code_of("tabulate_costs"),
     message:
         "put the tables of {wildcards.table} together"
     shell:
@@ -51,8 +51,6 @@ rule tabulate_costs:
 
 
 rule measure_trajectories:
-    input:
-        sources("measure_trajectories"),
     output:
         "results/tables/cost_trajectories.csv",
     log:
@@ -66,6 +64,7 @@ rule measure_trajectories:
         mem_mb=1000,
         runtime=10,
     params:
+        code=code_of("measure_trajectories"),
         options=STUDY.trajectories_options,
     message:
         "time every fall of the study with the default integrator"
@@ -74,8 +73,6 @@ rule measure_trajectories:
 
 
 rule measure_discretisation:
-    input:
-        sources("measure_discretisation"),
     output:
         table="results/tables/cost_discretisation.csv",
         growth="results/tables/cost_growth.csv",
@@ -90,6 +87,7 @@ rule measure_discretisation:
         mem_mb=2000,
         runtime=15,
     params:
+        code=code_of("measure_discretisation"),
         beads=config["cost"]["discretisation"]["n_beads"],
     message:
         "time few beads and many, and every mobility"
@@ -102,7 +100,6 @@ rule measure_discretisation:
 # seed, in seconds, on the study's autoencoders.
 rule train_short_node:
     input:
-        sources("train_node"),
         dataset="results/dataset/train.parquet",
         shapes="results/terminal_shapes/train.parquet",
         autoencoder=lambda wildcards: model_files(short_autoencoder(wildcards)),
@@ -119,6 +116,7 @@ rule train_short_node:
         mem_mb=3000,
         runtime=20,
     params:
+        code=code_of("train_node"),
         autoencoder=short_autoencoder,
         settings=as_json(STUDY.short_node),
         folder=lambda wildcards, output: Path(output[0]).parent,
@@ -132,7 +130,6 @@ rule train_short_node:
 
 rule measure_models:
     input:
-        sources("measure_models"),
         models=[model_files(folder) for _, _, folder, *_ in COST_MODELS],
         tests=[test_files(split) for split in TEST_SETS],
         reconstruction="results/tables/reconstruction.csv",
@@ -150,6 +147,7 @@ rule measure_models:
         mem_mb=2000,
         runtime=10,
     params:
+        code=code_of("measure_models"),
         models=" ".join("--model " + " ".join(map(str, words)) for words in COST_MODELS),
         tests=" ".join("--test " + " ".join(test_files(split)) for split in TEST_SETS),
     message:
@@ -161,7 +159,6 @@ rule measure_models:
 
 rule measure_choices:
     input:
-        sources("measure_choices"),
         models=[model_files(folder) for _, folder, *_ in ASKED_MODELS],
         training=test_files("train"),
         tests=[test_files(split) for split in TEST_SETS],
@@ -180,6 +177,7 @@ rule measure_choices:
         mem_mb=3000,
         runtime=20,
     params:
+        code=code_of("measure_choices"),
         models=" ".join("--model " + " ".join(words) for words in ASKED_MODELS),
         tests=" ".join("--test " + " ".join(test_files(split)) for split in TEST_SETS),
         data=[f"results/benchmarks/simulate/B{B}_k{k}.tsv" for B, k in STUDY.runs("train")],
@@ -193,8 +191,6 @@ rule measure_choices:
 
 
 rule measure_model_growth:
-    input:
-        sources("measure_model_growth"),
     output:
         "results/costs/model_growth/N{n_beads}.csv",
     log:
@@ -210,6 +206,7 @@ rule measure_model_growth:
         mem_mb=3000,
         runtime=15,
     params:
+        code=code_of("measure_model_growth"),
         options=STUDY.model_growth_options,
         autoencoder=as_json(config["cost"]["model_growth"]["autoencoder"]),
         node=as_json(STUDY.short_node),
@@ -223,7 +220,6 @@ rule measure_model_growth:
 
 use rule plot_problem as plot_cost_integrators with:
     input:
-        sources("plot_cost_integrators"),
         table="results/tables/cost_integrators.csv",
     output:
         **drawn("cost_integrators"),
@@ -232,6 +228,7 @@ use rule plot_problem as plot_cost_integrators with:
     benchmark:
         "results/benchmarks/plot_cost_integrators.tsv"
     params:
+        code=code_of("plot_cost_integrators"),
         call=drawn_from("plot_cost_integrators", "{table}"),
     message:
         "draw work against precision"
@@ -239,7 +236,6 @@ use rule plot_problem as plot_cost_integrators with:
 
 use rule plot_problem as plot_cost_physics with:
     input:
-        sources("plot_cost_physics"),
         table="results/tables/cost_discretisation.csv",
         growth="results/tables/cost_growth.csv",
         model_growth="results/tables/cost_model_growth.csv",
@@ -250,6 +246,7 @@ use rule plot_problem as plot_cost_physics with:
     benchmark:
         "results/benchmarks/plot_cost_physics.tsv"
     params:
+        code=code_of("plot_cost_physics"),
         call=drawn_from(
             "plot_cost_physics", "{table}", "--growth {growth}", "--model-growth {model_growth}"
         ),
@@ -259,7 +256,6 @@ use rule plot_problem as plot_cost_physics with:
 
 use rule plot_problem as plot_cost_models with:
     input:
-        sources("plot_cost_models"),
         table="results/tables/cost_models.csv",
     output:
         **drawn("cost_models"),
@@ -268,6 +264,7 @@ use rule plot_problem as plot_cost_models with:
     benchmark:
         "results/benchmarks/plot_cost_models.tsv"
     params:
+        code=code_of("plot_cost_models"),
         call=drawn_from("plot_cost_models", "{table}"),
     message:
         "draw what models cost to train, and what they are worth"
@@ -275,7 +272,6 @@ use rule plot_problem as plot_cost_models with:
 
 use rule plot_problem as plot_cost_decision with:
     input:
-        sources("plot_cost_decision"),
         table="results/tables/cost_forecast.csv",
     output:
         **drawn("cost_decision"),
@@ -284,6 +280,7 @@ use rule plot_problem as plot_cost_decision with:
     benchmark:
         "results/benchmarks/plot_cost_decision.tsv"
     params:
+        code=code_of("plot_cost_decision"),
         call=drawn_from("plot_cost_decision", "{table}"),
     message:
         "draw what to choose for which accuracy"

@@ -3,8 +3,6 @@
 
 
 rule solve_terminal_shapes:
-    input:
-        sources("solve_terminal_shapes"),
     output:
         "results/terminal_shapes/{split}.parquet",
     log:
@@ -18,6 +16,7 @@ rule solve_terminal_shapes:
         mem_mb=500,
         runtime=5,
     params:
+        code=code_of("solve_terminal_shapes"),
         B=lambda wildcards: STUDY.B_values(wildcards.split),
         options=STUDY.steady_options,
     message:
@@ -27,8 +26,6 @@ rule solve_terminal_shapes:
 
 
 rule solve_terminal_curve:
-    input:
-        sources("solve_terminal_curve"),
     output:
         "results/terminal_shapes/terminal_curve.parquet",
     log:
@@ -42,6 +39,7 @@ rule solve_terminal_curve:
         mem_mb=500,
         runtime=5,
     params:
+        code=code_of("solve_terminal_curve"),
         options=STUDY.terminal_curve_options,
     message:
         "solve the terminal shapes over the whole range of the training"
@@ -51,7 +49,6 @@ rule solve_terminal_curve:
 
 rule aggregate_dataset:
     input:
-        sources("aggregate_dataset"),
         trajectories=lambda wildcards: trajectories(wildcards.split),
     output:
         "results/dataset/{split}.parquet",
@@ -65,6 +62,8 @@ rule aggregate_dataset:
     resources:
         mem_mb=2000,
         runtime=10,
+    params:
+        code=code_of("aggregate_dataset"),
     message:
         "aggregate split {wildcards.split}"
     shell:
@@ -74,7 +73,6 @@ rule aggregate_dataset:
 
 rule tabulate_regimes:
     input:
-        sources("tabulate_regimes"),
         splits=[test_files(split) for split in STUDY.splits],
     output:
         "results/tables/regimes.csv",
@@ -89,6 +87,7 @@ rule tabulate_regimes:
         mem_mb=2000,
         runtime=5,
     params:
+        code=code_of("tabulate_regimes"),
         splits=" ".join(" ".join(["--split", *test_files(split)]) for split in STUDY.splits),
     message:
         "tabulate how each fall turns and bends"

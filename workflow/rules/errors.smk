@@ -3,7 +3,6 @@
 
 rule tabulate_forecast_errors:
     input:
-        sources("tabulate_forecast_errors"),
         truth=expand("results/dataset/{split}.parquet", split=TEST_SETS),
         shapes=expand("results/terminal_shapes/{split}.parquet", split=TEST_SETS),
         forecasts=rules.forecasts.input,
@@ -24,6 +23,7 @@ rule tabulate_forecast_errors:
         mem_mb=6000,
         runtime=10,
     params:
+        code=code_of("tabulate_forecast_errors"),
         forecasters=" ".join(forecaster_words(name) for name in FORECASTERS),
     message:
         "tabulate the errors of all forecasts"
@@ -36,7 +36,6 @@ rule tabulate_forecast_errors:
 
 rule tabulate_lags:
     input:
-        sources("tabulate_lags"),
         truth=expand("results/dataset/{split}.parquet", split=TEST_SETS),
         shapes=expand("results/terminal_shapes/{split}.parquet", split=TEST_SETS),
         forecasts=rules.forecasts.input,
@@ -53,6 +52,7 @@ rule tabulate_lags:
         mem_mb=6000,
         runtime=10,
     params:
+        code=code_of("tabulate_lags"),
         forecasters=" ".join(forecaster_words(name) for name in FORECASTERS),
     message:
         "tabulate the lag of all forecasts"

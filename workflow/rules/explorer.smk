@@ -3,7 +3,6 @@
 
 rule make_explorer:
     input:
-        sources("make_explorer"),
         parts=page_parts(),
         model=[
             *model_files("results/models/forecast"),
@@ -23,6 +22,7 @@ rule make_explorer:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code_of("make_explorer"),
         model=lambda wildcards, input: Path(input.model[0]).parent,
     message:
         "make the explorer"

@@ -4,7 +4,6 @@
 
 rule plot_problem:
     input:
-        sources("plot_problem"),
         fall=trajectory(*STUDY.shown_fall),
     output:
         **drawn("problem"),
@@ -21,6 +20,7 @@ rule plot_problem:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code_of("plot_problem"),
         call=drawn_from("plot_problem", "{fall}"),
     message:
         "draw the problem"
@@ -30,7 +30,6 @@ rule plot_problem:
 
 use rule plot_problem as plot_shapes_by_angle with:
     input:
-        sources("plot_shapes_by_angle"),
         dataset="results/dataset/train.parquet",
     output:
         **drawn("shapes_by_angle"),
@@ -39,6 +38,7 @@ use rule plot_problem as plot_shapes_by_angle with:
     benchmark:
         "results/benchmarks/plot_shapes_by_angle.tsv"
     params:
+        code=code_of("plot_shapes_by_angle"),
         call=drawn_from("plot_shapes_by_angle", "{dataset}", f"--B {STUDY.shown_fall[0]}"),
     message:
         "draw the shapes along the falls of one ℬ"
@@ -46,7 +46,6 @@ use rule plot_problem as plot_shapes_by_angle with:
 
 use rule plot_problem as plot_centre_paths with:
     input:
-        sources("plot_centre_paths"),
         dataset="results/dataset/train.parquet",
     output:
         **drawn("centre_paths"),
@@ -55,6 +54,7 @@ use rule plot_problem as plot_centre_paths with:
     benchmark:
         "results/benchmarks/plot_centre_paths.tsv"
     params:
+        code=code_of("plot_centre_paths"),
         call=drawn_from("plot_centre_paths", "{dataset}", f"--B {STUDY.shown_fall[0]}"),
     message:
         "draw the paths of the centre bead at one ℬ"
@@ -62,7 +62,6 @@ use rule plot_problem as plot_centre_paths with:
 
 use rule plot_problem as plot_shapes_by_flexibility with:
     input:
-        sources("plot_shapes_by_flexibility"),
         dataset="results/dataset/train.parquet",
         regimes="results/tables/regimes.csv",
     output:
@@ -72,6 +71,7 @@ use rule plot_problem as plot_shapes_by_flexibility with:
     benchmark:
         "results/benchmarks/plot_shapes_by_flexibility.tsv"
     params:
+        code=code_of("plot_shapes_by_flexibility"),
         call=drawn_from(
             "plot_shapes_by_flexibility",
             "{dataset}",
@@ -84,7 +84,6 @@ use rule plot_problem as plot_shapes_by_flexibility with:
 
 use rule plot_problem as plot_data_sets with:
     input:
-        sources("plot_data_sets"),
         table="results/tables/trajectories.csv",
     output:
         **drawn("data_sets"),
@@ -93,6 +92,7 @@ use rule plot_problem as plot_data_sets with:
     benchmark:
         "results/benchmarks/plot_data_sets.tsv"
     params:
+        code=code_of("plot_data_sets"),
         call=drawn_from("plot_data_sets", "{table}"),
     message:
         "draw which fall belongs to which data set"
@@ -100,7 +100,6 @@ use rule plot_problem as plot_data_sets with:
 
 use rule plot_problem as plot_model_diagram with:
     input:
-        sources("plot_model_diagram"),
         card=model_files("results/models/forecast")[1],
     output:
         **drawn("model_diagram"),
@@ -109,6 +108,7 @@ use rule plot_problem as plot_model_diagram with:
     benchmark:
         "results/benchmarks/plot_model_diagram.tsv"
     params:
+        code=code_of("plot_model_diagram"),
         call=drawn_from("plot_model_diagram", "{card}"),
     message:
         "draw the parts of the reduced model"
@@ -116,7 +116,6 @@ use rule plot_problem as plot_model_diagram with:
 
 use rule plot_problem as plot_reconstruction with:
     input:
-        sources("plot_reconstruction"),
         table="results/tables/reconstruction.csv",
     output:
         **drawn("reconstruction"),
@@ -125,6 +124,7 @@ use rule plot_problem as plot_reconstruction with:
     benchmark:
         "results/benchmarks/plot_reconstruction.tsv"
     params:
+        code=code_of("plot_reconstruction"),
         call=drawn_from("plot_reconstruction", "{table}"),
     message:
         "draw the reconstruction loss, and the four variants"

@@ -3,7 +3,6 @@
 
 rule film_forecast:
     input:
-        sources("film_forecast"),
         truth="results/dataset/{split}.parquet",
         forecast=forecasts_of("{split}"),
     output:
@@ -20,6 +19,8 @@ rule film_forecast:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        code=code_of("film_forecast"),
     message:
         "film the forecast at B={wildcards.B}, theta0={wildcards.k}π/48"
     shell:
@@ -29,7 +30,6 @@ rule film_forecast:
 
 rule film_scene:
     input:
-        sources("film_scene"),
         trajectory="results/scenes/{scene}.parquet",
     output:
         "results/films/scenes/{scene}.webp",
@@ -46,6 +46,7 @@ rule film_scene:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code_of("film_scene"),
         title=lambda wildcards: wildcards.scene.replace("_", " "),
     message:
         "film scene {wildcards.scene}"

@@ -3,7 +3,6 @@
 
 use rule plot_problem as plot_forecast_shapes_A with:
     input:
-        sources("plot_forecast_shapes"),
         truth="results/dataset/A.parquet",
         forecasts=forecasts_of("A"),
         table=ERRORS_TABLE,
@@ -14,6 +13,7 @@ use rule plot_problem as plot_forecast_shapes_A with:
     benchmark:
         "results/benchmarks/plot_forecast_shapes_A.tsv"
     params:
+        code=code_of("plot_forecast_shapes"),
         call=drawn_from("plot_forecast_shapes", "--test-set A", *PAIRED),
     message:
         "draw best and worst forecast shapes of test set A"
@@ -21,7 +21,6 @@ use rule plot_problem as plot_forecast_shapes_A with:
 
 use rule plot_problem as plot_forecast_shapes_B with:
     input:
-        sources("plot_forecast_shapes"),
         truth="results/dataset/B.parquet",
         forecasts=forecasts_of("B"),
         table=ERRORS_TABLE,
@@ -32,6 +31,7 @@ use rule plot_problem as plot_forecast_shapes_B with:
     benchmark:
         "results/benchmarks/plot_forecast_shapes_B.tsv"
     params:
+        code=code_of("plot_forecast_shapes"),
         call=drawn_from("plot_forecast_shapes", "--test-set B", *PAIRED),
     message:
         "draw best and worst forecast shapes of test set B"
@@ -39,7 +39,6 @@ use rule plot_problem as plot_forecast_shapes_B with:
 
 use rule plot_problem as plot_forecast_paths with:
     input:
-        sources("plot_forecast_paths"),
         truth=expand("results/dataset/{split}.parquet", split=TEST_SETS),
         forecasts=[forecasts_of(split) for split in TEST_SETS],
         table=ERRORS_TABLE,
@@ -50,6 +49,7 @@ use rule plot_problem as plot_forecast_paths with:
     benchmark:
         "results/benchmarks/plot_forecast_paths.tsv"
     params:
+        code=code_of("plot_forecast_paths"),
         call=drawn_from("plot_forecast_paths", *PAIRED),
     message:
         "draw best and worst forecast paths of the centre bead"
@@ -57,7 +57,6 @@ use rule plot_problem as plot_forecast_paths with:
 
 use rule plot_problem as plot_forecast_errors with:
     input:
-        sources("plot_forecast_errors"),
         table="results/tables/ensemble_errors.csv",
     output:
         **drawn("forecast_errors"),
@@ -66,6 +65,7 @@ use rule plot_problem as plot_forecast_errors with:
     benchmark:
         "results/benchmarks/plot_forecast_errors.tsv"
     params:
+        code=code_of("plot_forecast_errors"),
         call=drawn_from("plot_forecast_errors", "{table}", f"--model {FORECAST_MODEL}"),
     message:
         "draw the ensemble mean of E(t)"
@@ -73,7 +73,6 @@ use rule plot_problem as plot_forecast_errors with:
 
 use rule plot_problem as plot_contact_sheet with:
     input:
-        sources("plot_contact_sheet"),
         truth=expand("results/dataset/{split}.parquet", split=TEST_SETS),
         forecasts=[forecasts_of(split) for split in TEST_SETS],
         table=ERRORS_TABLE,
@@ -84,6 +83,7 @@ use rule plot_problem as plot_contact_sheet with:
     benchmark:
         "results/benchmarks/plot_contact_sheet.tsv"
     params:
+        code=code_of("plot_contact_sheet"),
         call=drawn_from("plot_contact_sheet", *PAIRED),
     message:
         "draw every test trajectory, true and forecast"
@@ -91,7 +91,6 @@ use rule plot_problem as plot_contact_sheet with:
 
 use rule plot_problem as plot_error_distribution with:
     input:
-        sources("plot_error_distribution"),
         table="results/tables/forecast_errors.csv",
     output:
         **drawn("error_distribution"),
@@ -100,6 +99,7 @@ use rule plot_problem as plot_error_distribution with:
     benchmark:
         "results/benchmarks/plot_error_distribution.tsv"
     params:
+        code=code_of("plot_error_distribution"),
         call=drawn_from("plot_error_distribution", "{table}"),
     message:
         "draw the largest error of every trajectory"
@@ -107,7 +107,6 @@ use rule plot_problem as plot_error_distribution with:
 
 use rule plot_problem as plot_baselines with:
     input:
-        sources("plot_baselines"),
         table="results/tables/baselines.csv",
     output:
         **drawn("baselines"),
@@ -116,6 +115,7 @@ use rule plot_problem as plot_baselines with:
     benchmark:
         "results/benchmarks/plot_baselines.tsv"
     params:
+        code=code_of("plot_baselines"),
         call=drawn_from("plot_baselines", "{table}"),
     message:
         "draw worst and median error beside the baseline"
@@ -123,7 +123,6 @@ use rule plot_problem as plot_baselines with:
 
 use rule plot_problem as plot_lags with:
     input:
-        sources("plot_lags"),
         table="results/tables/lags.csv",
     output:
         **drawn("lags"),
@@ -132,6 +131,7 @@ use rule plot_problem as plot_lags with:
     benchmark:
         "results/benchmarks/plot_lags.tsv"
     params:
+        code=code_of("plot_lags"),
         call=drawn_from("plot_lags", "{table}", f"--model {FORECAST_MODEL}"),
     message:
         "draw the lag of every forecast"

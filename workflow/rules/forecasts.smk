@@ -3,7 +3,6 @@
 
 rule forecast_test_set:
     input:
-        sources("forecast_test_set"),
         model=model_files("results/models/node/{model}"),
         dataset="results/dataset/{split}.parquet",
         shapes="results/terminal_shapes/{split}.parquet",
@@ -20,6 +19,7 @@ rule forecast_test_set:
         mem_mb=4000,
         runtime=10,
     params:
+        code=code_of("forecast_test_set"),
         folder=lambda wildcards, input: Path(input.model[0]).parent,
     message:
         "forecast test set {wildcards.split} with {wildcards.model}"
@@ -30,7 +30,6 @@ rule forecast_test_set:
 
 rule forecast_by_lookup:
     input:
-        sources("forecast_by_lookup"),
         training="results/dataset/train.parquet",
         training_shapes="results/terminal_shapes/train.parquet",
         dataset="results/dataset/{split}.parquet",
@@ -47,6 +46,8 @@ rule forecast_by_lookup:
     resources:
         mem_mb=4000,
         runtime=10,
+    params:
+        code=code_of("forecast_by_lookup"),
     message:
         "look up test set {wildcards.split} in splines through the training runs"
     shell:

@@ -4,7 +4,6 @@
 
 rule measure_hard_case:
     input:
-        hard_case_sources,
         model=hard_case_model,
     output:
         "results/hard_cases/{case}.csv",
@@ -19,6 +18,7 @@ rule measure_hard_case:
         mem_mb=2000,
         runtime=10,
     params:
+        code=hard_case_code,
         model=lambda wildcards, input: ("--model results/models/forecast" if input.model else ""),
     message:
         "hard case {wildcards.case}"
@@ -28,7 +28,6 @@ rule measure_hard_case:
 
 rule tabulate_hard_cases:
     input:
-        sources("tabulate_hard_cases"),
         cases=expand("results/hard_cases/{case}.csv", case=HARD_CASES),
     output:
         "results/tables/hard_cases.csv",
@@ -42,6 +41,8 @@ rule tabulate_hard_cases:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code_of("tabulate_hard_cases"),
     message:
         "tabulate all hard cases"
     shell:
@@ -50,7 +51,6 @@ rule tabulate_hard_cases:
 
 use rule plot_problem as plot_hard_cases with:
     input:
-        sources("plot_hard_cases"),
         table="results/tables/hard_cases.csv",
     output:
         **drawn("hard_cases"),
@@ -59,6 +59,7 @@ use rule plot_problem as plot_hard_cases with:
     benchmark:
         "results/benchmarks/plot_hard_cases.tsv"
     params:
+        code=code_of("plot_hard_cases"),
         call=drawn_from("plot_hard_cases", "{table}"),
     message:
         "draw how far every hard case stays from its bounds"

@@ -3,7 +3,6 @@
 
 rule train_node:
     input:
-        sources("train_node"),
         dataset="results/dataset/train.parquet",
         shapes="results/terminal_shapes/train.parquet",
         autoencoder=lambda wildcards: model_files(autoencoder_of(wildcards.model)),
@@ -20,6 +19,7 @@ rule train_node:
         mem_mb=3000,
         runtime=60,
     params:
+        code=code_of("train_node"),
         autoencoder=lambda wildcards: autoencoder_of(wildcards.model),
         recipe=lambda wildcards: NODES[wildcards.model]["recipe"],
         seed=lambda wildcards: NODES[wildcards.model]["seed"],

@@ -3,7 +3,6 @@
 
 rule tabulate_timings:
     input:
-        sources("tabulate_timings"),
         results=STUDY_RESULTS,
     output:
         "results/tables/timings.csv",
@@ -18,6 +17,7 @@ rule tabulate_timings:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code_of("tabulate_timings"),
         benchmarks=benchmarks(),
     message:
         "sum the benchmark files by stage"
@@ -27,7 +27,6 @@ rule tabulate_timings:
 
 rule write_manifest:
     input:
-        sources("write_manifest"),
         results=STUDY_RESULTS,
         timings=rules.tabulate_timings.output,
         lock=here(BASE / "envs/requirements.lock"),
@@ -44,6 +43,7 @@ rule write_manifest:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code_of("write_manifest"),
         config=as_json(config),
         commit=commit(),
         snakefile=here(BASE / "Snakefile"),

@@ -3,7 +3,6 @@
 
 rule compare_published:
     input:
-        sources("compare_published"),
         fresh=expand("results/tables/{table}.csv", table=PUBLISHED_TABLES),
         published=expand("results/published/tables/{table}.csv", table=PUBLISHED_TABLES),
     output:
@@ -19,6 +18,7 @@ rule compare_published:
         mem_mb=500,
         runtime=5,
     params:
+        code=code_of("compare_published"),
         fresh=lambda wildcards, input: Path(input.fresh[0]).parent,
         published=lambda wildcards, input: Path(input.published[0]).parent,
     message:

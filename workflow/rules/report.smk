@@ -3,7 +3,6 @@
 
 rule tabulate_key_numbers:
     input:
-        sources("tabulate_key_numbers"),
         trajectories="results/tables/trajectories.csv",
         regimes="results/tables/regimes.csv",
         reconstruction="results/tables/reconstruction.csv",
@@ -22,6 +21,7 @@ rule tabulate_key_numbers:
         mem_mb=500,
         runtime=5,
     params:
+        code=code_of("tabulate_key_numbers"),
         model=FORECAST_MODEL,
         variant=NODES[FORECAST_MODEL]["variant"],
         angle_index=STUDY.shown_fall[1],
@@ -36,7 +36,6 @@ rule tabulate_key_numbers:
 
 rule show_table:
     input:
-        sources("show_table"),
         table="results/tables/{table}.csv",
     output:
         report(
@@ -57,6 +56,8 @@ rule show_table:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code_of("show_table"),
     message:
         "table {wildcards.table} as a page"
     shell:
@@ -65,7 +66,6 @@ rule show_table:
 
 rule show_manifest:
     input:
-        sources("show_manifest"),
         manifest="results/manifest.json",
     output:
         report(
@@ -84,6 +84,8 @@ rule show_manifest:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code_of("show_manifest"),
     message:
         "provenance as a page"
     shell:

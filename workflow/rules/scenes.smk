@@ -3,7 +3,6 @@
 
 rule simulate_scene:
     input:
-        sources("simulate"),
         lambda wildcards: scene_files(wildcards.scene),
     output:
         "results/scenes/{scene}.parquet",
@@ -18,6 +17,7 @@ rule simulate_scene:
         mem_mb=500,
         runtime=5,
     params:
+        code=code_of("simulate"),
         file=lambda wildcards: scene_files(wildcards.scene)[0],
     message:
         "simulate scene {wildcards.scene}"
@@ -27,7 +27,6 @@ rule simulate_scene:
 
 rule plot_scene:
     input:
-        sources("plot_scene"),
         trajectory="results/scenes/{scene}.parquet",
     output:
         svg=report(
@@ -48,6 +47,7 @@ rule plot_scene:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code_of("plot_scene"),
         title=lambda wildcards: wildcards.scene.replace("_", " "),
     message:
         "draw scene {wildcards.scene}"
@@ -58,7 +58,6 @@ rule plot_scene:
 
 rule tabulate_scene_audit:
     input:
-        sources("tabulate_audit"),
         trajectories=expand("results/scenes/{scene}.parquet", scene=SCENES),
     output:
         "results/tables/scene_audit.csv",
@@ -72,6 +71,8 @@ rule tabulate_scene_audit:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code_of("tabulate_audit"),
     message:
         "tabulate what the scenes left out"
     shell:
@@ -85,8 +86,6 @@ rule scenes:
 
 
 rule compare_third_dimension:
-    input:
-        sources("compare_third_dimension"),
     output:
         table="results/tables/third_dimension.csv",
         growth="results/tables/third_dimension_growth.csv",
@@ -101,6 +100,7 @@ rule compare_third_dimension:
         mem_mb=500,
         runtime=10,
     params:
+        code=code_of("compare_third_dimension"),
         B=config["third_dimension"]["B"],
         options=STUDY.third_dimension_options,
     message:
@@ -112,7 +112,6 @@ rule compare_third_dimension:
 
 use rule plot_problem as plot_third_dimension with:
     input:
-        sources("plot_third_dimension"),
         table="results/tables/third_dimension.csv",
         growth="results/tables/third_dimension_growth.csv",
     output:
@@ -122,6 +121,7 @@ use rule plot_problem as plot_third_dimension with:
     benchmark:
         "results/benchmarks/plot_third_dimension.tsv"
     params:
+        code=code_of("plot_third_dimension"),
         call=drawn_from("plot_third_dimension", "{table}", "--growth {growth}"),
     message:
         "draw where the third dimension begins to matter"
@@ -133,8 +133,6 @@ rule third_dimension:
 
 
 rule measure_effects:
-    input:
-        sources("measure_effects"),
     output:
         "results/tables/effects.csv",
     log:
@@ -148,6 +146,7 @@ rule measure_effects:
         mem_mb=1000,
         runtime=10,
     params:
+        code=code_of("measure_effects"),
         options=STUDY.effects_options,
     message:
         "measure cost and influence of every effect"
@@ -157,7 +156,6 @@ rule measure_effects:
 
 use rule plot_problem as plot_effects with:
     input:
-        sources("plot_effects"),
         table="results/tables/effects.csv",
     output:
         **drawn("effects"),
@@ -166,14 +164,13 @@ use rule plot_problem as plot_effects with:
     benchmark:
         "results/benchmarks/plot_effects.tsv"
     params:
+        code=code_of("plot_effects"),
         call=drawn_from("plot_effects", "{table}"),
     message:
         "draw cost and influence of every effect"
 
 
 rule benchmark_parts:
-    input:
-        sources("benchmark_parts"),
     output:
         "results/tables/parts_against_fused_kernel.csv",
     log:
@@ -186,6 +183,8 @@ rule benchmark_parts:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code_of("benchmark_parts"),
     message:
         "time the study's scene against a kernel written for it alone"
     shell:

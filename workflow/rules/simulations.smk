@@ -2,8 +2,6 @@
 
 
 rule simulate:
-    input:
-        sources("simulate"),
     output:
         "results/trajectories/B{B}_k{k}.parquet",
     log:
@@ -19,6 +17,7 @@ rule simulate:
         mem_mb=500,
         runtime=5,
     params:
+        code=code_of("simulate"),
         options=STUDY.simulate_options,
     message:
         "simulate B={wildcards.B}, theta0={wildcards.k}π/48"
@@ -29,7 +28,6 @@ rule simulate:
 
 rule tabulate_trajectories:
     input:
-        sources("tabulate_trajectories"),
         **{split: trajectories(split) for split in STUDY.splits},
     output:
         "results/tables/trajectories.csv",
@@ -44,6 +42,7 @@ rule tabulate_trajectories:
         mem_mb=2000,
         runtime=10,
     params:
+        code=code_of("tabulate_trajectories"),
         splits=lambda wildcards, input: " ".join(
             f"--split {split} {' '.join(input[split])}" for split in STUDY.splits
         ),
@@ -55,7 +54,6 @@ rule tabulate_trajectories:
 
 rule tabulate_audit:
     input:
-        sources("tabulate_audit"),
         trajectories=[trajectories(split) for split in STUDY.splits],
     output:
         "results/tables/audit.csv",
@@ -69,6 +67,8 @@ rule tabulate_audit:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        code=code_of("tabulate_audit"),
     message:
         "tabulate what the study's scene left out"
     shell:
@@ -84,7 +84,6 @@ rule simulations:
 
 rule check_simulation:
     input:
-        sources("check_simulation"),
         trajectory="results/trajectories/B{B}_k{k}.parquet",
     output:
         "results/checks/B{B}_k{k}.json",
@@ -101,6 +100,7 @@ rule check_simulation:
         mem_mb=500,
         runtime=10,
     params:
+        code=code_of("check_simulation"),
         options=as_options(config["check"]),
     message:
         "check B={wildcards.B}, theta0={wildcards.k}π/48 against {params.options}"
@@ -110,7 +110,6 @@ rule check_simulation:
 
 rule tabulate_checks:
     input:
-        sources("tabulate_checks"),
         checks=[
             f"results/checks/B{B}_k{k}.json"
             for split in STUDY.splits
@@ -128,6 +127,8 @@ rule tabulate_checks:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code_of("tabulate_checks"),
     message:
         "tabulate the checks of all trajectories"
     shell:

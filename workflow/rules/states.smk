@@ -2,8 +2,6 @@
 
 
 rule trace_states:
-    input:
-        sources("trace_states"),
     output:
         table="results/tables/states.csv",
         thresholds="results/tables/state_thresholds.csv",
@@ -18,6 +16,7 @@ rule trace_states:
         mem_mb=500,
         runtime=5,
     params:
+        code=code_of("trace_states"),
         options=STUDY.states_options,
     message:
         "trace the steady states and find where they are stable"
@@ -28,7 +27,6 @@ rule trace_states:
 
 use rule plot_problem as plot_states with:
     input:
-        sources("plot_states"),
         table="results/tables/states.csv",
         thresholds="results/tables/state_thresholds.csv",
     output:
@@ -38,6 +36,7 @@ use rule plot_problem as plot_states with:
     benchmark:
         "results/benchmarks/plot_states.tsv"
     params:
+        code=code_of("plot_states"),
         call=drawn_from("plot_states", "{table}", "--thresholds {thresholds}"),
     message:
         "draw the steady states and where they are stable"
