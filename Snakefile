@@ -31,6 +31,17 @@ include: "workflow/rules/hard_cases.smk"
 include: "workflow/rules/cost.smk"
 
 
+# Snakemake starts at most 100 jobs a second unless told otherwise. To look again when the second is
+# over, it sets a timer at each look while jobs wait, and each timer's end is another look: every
+# finished job adds one look a second for the rest of the run, a third of a core in all. A longer
+# timespan makes them fewer, but the end of the run waits for the last timer. So the limit goes; one
+# that a user or a profile sets stays.
+onstart:
+    limiter = workflow.scheduler.job_rate_limiter
+    if limiter is not None and (limiter.max_jobs, limiter.timespan) == (100, 1):
+        workflow.scheduler.job_rate_limiter = None
+
+
 STUDY_RESULTS = [
     rules.simulations.input,
     rules.dataset.input,
