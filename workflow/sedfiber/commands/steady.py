@@ -5,7 +5,8 @@ import json
 from pathlib import Path
 
 from sedfiber.core.atomic_file import require_writable, write_text
-from sedfiber.scene.scene import HYDRODYNAMICS, Scene
+from sedfiber.scene.fields import HYDRODYNAMICS
+from sedfiber.scene.scene import Scene
 from sedfiber.simulation.equilibria.spectrum import spectrum
 from sedfiber.simulation.equilibria.steady import BRANCHES, SteadyState, terminal_state
 
