@@ -1,4 +1,5 @@
 # make reproduce   the environment, then the whole study
+# make quick       lint, types and the fast unit tests, in under two minutes
 # make test        the environment, then all tests
 # make publish     a full run of committed code, copied to results/published, and its model into the package
 
@@ -6,10 +7,13 @@ PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
 
-.PHONY: reproduce test publish lint environment lock clean
+.PHONY: reproduce quick test publish lint environment lock clean
 
 reproduce: environment
 	PATH="$(CURDIR)/$(BIN):$$PATH" snakemake -j2
+
+quick: lint
+	PATH="$(CURDIR)/$(BIN):$$PATH" pytest -n 2 --dist loadscope -m "not slow" tests/unit
 
 test: environment
 	PATH="$(CURDIR)/$(BIN):$$PATH" pytest -n 2 --dist loadscope

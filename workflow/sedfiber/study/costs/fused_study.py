@@ -57,6 +57,8 @@ def jacobian(y: State, modulus: float) -> Matrix:
     f = np.empty((2, n))
     _positions_and_weight(y, x, f)
     _add_elastic_force(x, modulus, f)
+    # One kernel: a row of mobilities and its derivative is used while it is in registers and cache; cut into functions,
+    # it would be written out and read again.
     band = _elastic_band(x, modulus)
     out = np.zeros((y.size, y.size))
     m = np.zeros((3, n + 4))

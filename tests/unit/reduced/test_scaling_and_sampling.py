@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-from tiny_fiber import N_BEADS
 
 from sedfiber.reduced.scaling import Scales, residual_history
 from sedfiber.reduced.training.sampling import path_coordinate, path_even_indices
+from tiny_fiber import N_BEADS
 
 
 def test_scaled_log_spans_the_training_range(training):

@@ -2,7 +2,6 @@ import json
 
 import numpy as np
 import pytest
-from tiny_fiber import settling
 
 from sedfiber.core.errors import InputError
 from sedfiber.reduced.forecast_start import Start
@@ -16,6 +15,7 @@ from sedfiber.reduced.torch_forecast import ForecastModel
 from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
 from sedfiber.reduced.training.train_autoencoder import train_autoencoder
 from sedfiber.reduced.training.train_node import train_node
+from tiny_fiber import settling
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(8,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=10

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 import torch
 from scipy.integrate import solve_ivp
-from tiny_fiber import settling
 
 from sedfiber.core.errors import InputError
 from sedfiber.reduced.forecast_start import Start
@@ -16,6 +15,7 @@ from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
 from sedfiber.reduced.training.train_autoencoder import train_autoencoder
 from sedfiber.reduced.training.train_node import train_node
 from sedfiber.reduced.training.train_node_source import train_node_source
+from tiny_fiber import settling
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(16,), modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=400

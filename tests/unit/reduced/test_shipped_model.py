@@ -21,7 +21,7 @@ from sedfiber.simulation.equilibria.terminal_curve import read_terminal_curve
 from sedfiber.study.angles import angle_of
 from sedfiber.study.shipping import SETS, ship
 
-PUBLISHED = Path(__file__).parents[2] / "results/published"
+PUBLISHED = Path(__file__).parents[3] / "results/published"
 CARD, _ = read_model_folder(SHIPPED, "forecast model")
 
 

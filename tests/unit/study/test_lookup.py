@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from tiny_fiber import settling
 
 from sedfiber.core.errors import InputError
 from sedfiber.reduced.dataset import Dataset
 from sedfiber.study.lookup import LookupTable, spline_weights
+from tiny_fiber import settling
 
 
 def test_exact_at_the_nodes(training):

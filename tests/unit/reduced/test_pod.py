@@ -1,10 +1,10 @@
 import numpy as np
 import pytest
-from tiny_fiber import N_BEADS
 
 from sedfiber.reduced.dataset import mirrored
 from sedfiber.reduced.pod import modal_basis, pod_basis
 from sedfiber.reduced.training.train_autoencoder import path_even_residuals
+from tiny_fiber import N_BEADS
 
 
 @pytest.fixture

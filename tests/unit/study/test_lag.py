@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from tiny_fiber import bent_fiber, settling
 
 from sedfiber.commands.cli import main
 from sedfiber.core.errors import InputError
@@ -15,6 +14,7 @@ from sedfiber.reduced.dataset_file import write_dataset
 from sedfiber.reduced.measures import forecast_error
 from sedfiber.study.error_tables import Forecaster
 from sedfiber.study.lag import MOVING, lag_rows, measure_lag
+from tiny_fiber import bent_fiber, settling
 
 T = np.arange(0.0, 12.05, 0.1)
 WHO = Forecaster("ours", "rollout", 4)

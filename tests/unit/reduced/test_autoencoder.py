@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 import torch
-from tiny_fiber import N_BEADS
 
 from sedfiber.core.errors import InputError, NumericalError
 from sedfiber.reduced.dataset import Dataset, mirrored
@@ -9,6 +8,7 @@ from sedfiber.reduced.pod import pod_basis
 from sedfiber.reduced.reconstruction import autoencoder_errors, mean_over_samples, pod_errors
 from sedfiber.reduced.training.settings import VARIANTS, AutoencoderSettings
 from sedfiber.reduced.training.train_autoencoder import path_even_residuals, train_autoencoder
+from tiny_fiber import N_BEADS
 
 QUICK = AutoencoderSettings(
     decoder_hidden=(12,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=60

@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import torch
-from tiny_fiber import settling
 
 from sedfiber.core.errors import InputError, NumericalError
 from sedfiber.reduced.dataset import Dataset
@@ -16,6 +15,7 @@ from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
 from sedfiber.reduced.training.train_autoencoder import train_autoencoder
 from sedfiber.reduced.training.train_node import train_node
 from sedfiber.reduced.training.train_node_source import train_node_source
+from tiny_fiber import settling
 
 ENCODING = AutoencoderSettings((8,), modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=20)
 NODE = NodeSettings((8,), samples_per_trajectory=8, matching_iterations=20, matching_batch_size=16)

@@ -1,10 +1,10 @@
 import numpy as np
 import pandas as pd
 import pytest
-from tiny_fiber import N_BEADS, NAMES, TRAINED, bent_fiber, settling
 
 from sedfiber.core.errors import InputError
 from sedfiber.reduced.dataset import Dataset, mirrored, read_dataset
+from tiny_fiber import N_BEADS, NAMES, TRAINED, bent_fiber, settling
 
 
 def write_pair(folder, trajectories):

@@ -18,7 +18,7 @@ from sedfiber.scene.assembly import assemble
 from sedfiber.scene.own_effect import OwnFlow, OwnForce, load_own
 from sedfiber.scene.parts import Own
 
-PAGE = Path(__file__).parents[2] / "docs" / "own_effect.md"
+PAGE = Path(__file__).parents[3] / "docs" / "own_effect.md"
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 FILES = {body.splitlines()[0].removeprefix("# "): body for kind, body in BLOCKS if kind in ("python", "yaml")}
 COMMANDS = [line.removeprefix("$ ") for kind, body in BLOCKS if kind == "console"

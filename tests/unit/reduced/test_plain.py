@@ -7,8 +7,8 @@ import sys
 
 import numpy as np
 import pytest
-from forecast_models import distance, start_of, untrained
 
+from forecast_models import distance, start_of, untrained
 from sedfiber.core.errors import InputError, NumericalError
 from sedfiber.reduced.compiled.model import load_compiled
 from sedfiber.reduced.forecaster import load_model, load_plain_model

@@ -10,8 +10,8 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
-from test_cli import complaint, status_of
 
+from command_line import complaint, status_of
 from sedfiber import InputError, Numerics, Scene, read_scene, read_trajectory, simulate, write_trajectory
 from sedfiber.commands.cli import main
 from sedfiber.physics.curved_bending import rest_arc

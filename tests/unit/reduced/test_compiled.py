@@ -7,9 +7,9 @@ import sys
 import numpy as np
 import pytest
 import torch
-from forecast_models import distance, start_of, untrained
 from numba import njit
 
+from forecast_models import distance, start_of, untrained
 from sedfiber.core.errors import InputError, NumericalError
 from sedfiber.reduced.compiled.bead_path import DEGREE
 from sedfiber.reduced.compiled.model import load_compiled
