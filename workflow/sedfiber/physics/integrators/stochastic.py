@@ -30,6 +30,7 @@ class StochasticMidpoint(March):
     """Fixed steps of ``step`` that divide the sampling interval; every random number is from ``seed``."""
 
     name = "stochastic-midpoint"
+    system: System  # of whole fibers: noise breaks any symmetry
 
     def __init__(self, system: System, tolerances: Tolerances, temperature: float, step: float, seed: int):
         super().__init__(system, tolerances)

@@ -105,6 +105,7 @@ def straight_point(scene: Scene, curve: SteadyCurve) -> CurvePoint:
     B = min(scene.B, NEARLY_STRAIGHT)
     point = curve.nearest(B, planar(scene).start())
     if point is None:
+        assert scene.stretching is not None  # or it would have no terminal shape
         raise NumericalError(
             f"no terminal shape found for B={scene.B:g}, {scene.n_beads} beads and "
             f"stretching.factor {scene.stretching.factor:g}: no nearly straight one at B={B:g} to follow from"
