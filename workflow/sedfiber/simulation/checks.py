@@ -4,13 +4,14 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from sedfiber.core.array_types import Array, History, State
+from sedfiber.core.array_types import Array, History
 from sedfiber.core.errors import NumericalError
 from sedfiber.physics.definiteness import CLOSE, OVERLAP_REMEDY, least_eigenvalue
 from sedfiber.physics.gaps import closest_distance, smallest_gap
 from sedfiber.physics.system import System
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.bounds import strain_bound
+from sedfiber.simulation.recorded_run import Run
 
 _LOOKED_AT = 32  # samples of closest approach whose mobility is examined
 ENERGY_BALANCE = 1e-4  # of the energy lost; the default tolerances reach about 1e-6
@@ -60,16 +61,16 @@ class Checks:
             raise NumericalError(f"check failed: {name} {value:.3g} is above its bound {bound:.3g}; {advice}")
 
 
-def check(system: System, states: State, scene: Scene, final_distance: float | None) -> Checks:
-    """Measure a finished run from its states (T, beads d + 1)."""
-    positions = system.to_positions(states)[..., : scene.dim]
-    shapes = np.ascontiguousarray(system.to_shapes(states)[..., : scene.dim])
+def check(scene: Scene, system: System, run: Run, final_distance: float | None) -> Checks:
+    """Measure a finished run of ``system``."""
+    positions = run.positions[..., : scene.dim]
+    shapes = np.ascontiguousarray(run.shapes[..., : scene.dim])
     balanced = scene.noise is None
     return Checks(
         bond_strain_max=_largest_strain(shapes, scene.n_beads),
         strain_bound=strain_bound(scene),
         smallest_gap=_smallest_gap(shapes, scene.n_beads),
-        energy_imbalance=_energy_imbalance(system, scene, positions, states[:, -1]) if balanced else None,
+        energy_imbalance=_energy_imbalance(system, scene, positions, run.work) if balanced else None,
         energy_bound=ENERGY_BALANCE if balanced else None,
         final_distance=final_distance,
         wall_gap=None if scene.wall is None else float(_heights(scene, positions).min()) - 1.0,
