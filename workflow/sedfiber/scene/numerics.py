@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import number_within, one_of, positive_number, yes_or_no
-from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, AboveWall, March, StochasticMidpoint, Tolerances
+from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, AboveWall, Integrator, StochasticMidpoint, Tolerances
 from sedfiber.physics.protocols import Equations
 from sedfiber.physics.system import System
 from sedfiber.scene.parts import Noise
@@ -64,16 +64,16 @@ class Numerics:
             _require_step(scene, scene.noise, self.interval)
         return replace(self, integrator=self.integrator or fitting)
 
-    def march(self, system: Equations, scene: Scene) -> March:
+    def integrator_for(self, system: Equations, scene: Scene) -> Integrator:
         """The chosen integrator on ``system``."""
         tolerances = Tolerances(self.rtol, self.atol)
-        march: March
+        integrator: Integrator
         if scene.noise is not None:
             assert isinstance(system, System)  # no symmetry is exact in noise
-            march = StochasticMidpoint(system, tolerances, scene.noise.temperature, scene.noise.step, scene.seed)
+            integrator = StochasticMidpoint(system, tolerances, scene.noise.temperature, scene.noise.step, scene.seed)
         else:
-            march = INTEGRATORS[self.integrator or DEFAULT_INTEGRATOR](system, tolerances)
-        return march if scene.wall is None else AboveWall(march)
+            integrator = INTEGRATORS[self.integrator or DEFAULT_INTEGRATOR](system, tolerances)
+        return integrator if scene.wall is None else AboveWall(integrator)
 
 
 def _require_step(scene: Scene, noise: Noise, interval: float) -> None:

@@ -22,11 +22,11 @@ import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, lu_factor, lu_solve, solve_triangular
 
 from sedfiber.core.array_types import Matrix, Positions, State
-from sedfiber.physics.integrators.base import March, Tolerances
+from sedfiber.physics.integrators.base import Integrator, Tolerances
 from sedfiber.physics.system import System
 
 
-class StochasticMidpoint(March):
+class StochasticMidpoint(Integrator):
     """Fixed steps of ``step`` that divide the sampling interval; every random number is from ``seed``."""
 
     name = "stochastic-midpoint"
