@@ -16,10 +16,10 @@ IMPLICIT = [name for name in INTEGRATORS if name != "dopri5"]
 each_integrator = pytest.mark.parametrize("integrator", INTEGRATORS)
 
 
-def march_error(motion, integrator, tolerance, samples=21):
-    """Largest error at the samples of one march over a motion with a known solution."""
-    march = INTEGRATORS[integrator](motion, Tolerances(tolerance, tolerance))
-    states = list(islice(march.states(motion.start, INTERVAL), samples))
+def largest_error(motion, integrator, tolerance, samples=21):
+    """Largest error at the samples of one integration of a motion with a known solution."""
+    method = INTEGRATORS[integrator](motion, Tolerances(tolerance, tolerance))
+    states = list(islice(method.states(motion.start, INTERVAL), samples))
     return max(np.abs(y - motion.solution(k * INTERVAL)).max() for k, y in enumerate(states))
 
 
@@ -37,15 +37,15 @@ def test_known_solutions(motion, integrator):
     """
     if motion is StiffTracking and integrator == "dopri5":
         with pytest.raises(NumericalError, match="stiff"):
-            march_error(motion(), integrator, 1e-8)
+            largest_error(motion(), integrator, 1e-8)
     else:
-        assert march_error(motion(), integrator, 1e-8) < 1e-5
+        assert largest_error(motion(), integrator, 1e-8) < 1e-5
 
 
 @each_integrator
 def test_linear_motion_is_exact(integrator):
     """Two free touching beads fall at 1.4375 U_s: every method integrates a constant to round-off."""
-    assert march_error(FallingPair(), integrator, 1e-6) < 1e-12
+    assert largest_error(FallingPair(), integrator, 1e-6) < 1e-12
 
 
 @each_integrator
@@ -53,7 +53,7 @@ def test_linear_motion_is_exact(integrator):
 def test_error_follows_the_tolerance(motion, integrator):
     """Error falls in proportion to the tolerance: slope of the logarithms between 0.6 and 1.2."""
     tolerances = [1e-5, 1e-6, 1e-7, 1e-8, 1e-9]
-    errors = [march_error(motion(), integrator, tolerance) for tolerance in tolerances]
+    errors = [largest_error(motion(), integrator, tolerance) for tolerance in tolerances]
     assert 0.6 < np.polyfit(np.log(tolerances), np.log(errors), 1)[0] < 1.2
 
 
@@ -61,11 +61,11 @@ def test_error_follows_the_tolerance(motion, integrator):
 def test_counters_count_the_work(integrator):
     """Right-hand sides are those the motion saw; only implicit methods use the Jacobian."""
     motion = Oscillator()
-    march = INTEGRATORS[integrator](motion, Tolerances(1e-6, 1e-6))
-    list(islice(march.states(motion.start, INTERVAL), 21))
-    assert 0 < march.counters.rhs <= motion.rhs_count
-    assert march.counters.jacobians == motion.jacobian_count
-    assert march.counters.steps > 10
+    method = INTEGRATORS[integrator](motion, Tolerances(1e-6, 1e-6))
+    list(islice(method.states(motion.start, INTERVAL), 21))
+    assert 0 < method.counters.rhs <= motion.rhs_count
+    assert method.counters.jacobians == motion.jacobian_count
+    assert method.counters.steps > 10
     assert motion.jacobian_count == 0 or integrator in IMPLICIT
 
 
@@ -103,9 +103,9 @@ class Undefined(Oscillator):
 @pytest.mark.parametrize("motion", [Explosion, Undefined], ids=lambda motion: motion.name)
 def test_what_cannot_be_integrated_is_refused(motion, integrator):
     """A solution that ends at t = 1 is never returned beyond it; the error is one line with the method's name."""
-    march = INTEGRATORS[integrator](motion(), Tolerances(1e-6, 1e-6))
+    method = INTEGRATORS[integrator](motion(), Tolerances(1e-6, 1e-6))
     with pytest.raises(NumericalError, match=f"^{integrator}: .* at t = ") as error:
-        list(islice(march.states(motion.start, INTERVAL), 10))
+        list(islice(method.states(motion.start, INTERVAL), 10))
     assert "\n" not in str(error.value)
 
 
@@ -123,9 +123,9 @@ class Interrupted(Oscillator):
 @each_integrator
 def test_an_exception_comes_out_as_it_was_raised(integrator):
     """Once, also through a solver's compiled code."""
-    march = INTEGRATORS[integrator](Interrupted(), Tolerances(1e-6, 1e-6))
+    method = INTEGRATORS[integrator](Interrupted(), Tolerances(1e-6, 1e-6))
     with pytest.raises(KeyboardInterrupt) as error:
-        list(islice(march.states(Interrupted.start, INTERVAL), 10))
+        list(islice(method.states(Interrupted.start, INTERVAL), 10))
     assert error.value.__cause__ is None
 
 
@@ -142,7 +142,7 @@ class Singular(StiffTracking):
 def test_a_jacobian_that_is_not_finite_is_refused(integrator):
     """By name, where SciPy's factorisation would say that an array must not contain NaNs."""
     with pytest.raises(NumericalError, match=f"^{integrator}: the Jacobian is not finite at t = 0 a/U_s; try"):
-        march_error(Singular(), integrator, 1e-6)
+        largest_error(Singular(), integrator, 1e-6)
 
 
 def test_dopri5_gives_up_on_a_stiff_fiber_and_says_so():

@@ -25,8 +25,8 @@ DIMS = {"plane": 2, "volume": 3}
 each_space = pytest.mark.parametrize("space", DIMS)
 
 
-def march_of(system, temperature, step, seed):
-    """The stochastic march; its tolerances mean nothing."""
+def integrator_of(system, temperature, step, seed):
+    """The stochastic integrator; its tolerances mean nothing."""
     return StochasticMidpoint(system, Tolerances(1e-8, 1e-8), temperature, step, seed)
 
 
@@ -92,8 +92,8 @@ def divergence(matrix_at, x, h=1e-5):
 
 def displacements(system, x, temperature, n, seed, step=SHORT):
     """``n`` independent displacements (n, N d) over one step from ``x``."""
-    march, start = march_of(system, temperature, step, seed), system.to_state(x)
-    ends = np.array([next(islice(march.states(start, step), 1, None)) for _ in range(n)])
+    integrator, start = integrator_of(system, temperature, step, seed), system.to_state(x)
+    ends = np.array([next(islice(integrator.states(start, step), 1, None)) for _ in range(n)])
     return (system.to_positions(ends)[..., : x.shape[1]] - x).reshape(n, -1)
 
 
@@ -235,8 +235,8 @@ def test_heights_above_a_wall_are_boltzmanns():
     start = np.zeros((n, 3))
     start[:, 0] = 1000.0 * np.arange(n)
     start[:, 1] = np.interp((np.random.default_rng(1).permutation(n) + 0.5) / n, share, h) - 60.0
-    march = march_of(system, 1.0, 0.01, seed=21)
-    states = np.array(list(islice(march.states(system.to_state(start), 0.05), 2800)))
+    integrator = integrator_of(system, 1.0, 0.01, seed=21)
+    states = np.array(list(islice(integrator.states(system.to_state(start), 0.05), 2800)))
     heights = system.to_positions(states)[..., 1] + 60.0
     mean, error = block_average(heights.mean(1), 40)
     assert abs(mean - expected) < 4 * error
@@ -272,9 +272,9 @@ def measure_fibers(space, hydrodynamics, step, t_end, seed):
     places = [{"place": (0.0, 2.5 * k, 0.0)} for k in range(10)]
     scene = chain_scene(3, space=space, hydrodynamics=hydrodynamics, fibers=places)
     system = assemble(scene)
-    march = march_of(system, 1.0, step, seed)
+    integrator = integrator_of(system, 1.0, step, seed)
     interval, settled = step * max(1, round(0.08 / step)), 3.0
-    states = march.states(system.to_state(scene.start()), interval)
+    states = integrator.states(system.to_state(scene.start()), interval)
     states = np.array(list(islice(states, round(settled / interval), round((settled + t_end) / interval))))
     bonds = np.diff(system.to_positions(states).reshape(len(states), 10, 3, 3), axis=2)
     r = np.linalg.norm(bonds, axis=3)
@@ -326,8 +326,8 @@ def test_a_stiff_fiber_keeps_its_energy_at_large_steps(space):
     modulus, dim = 1e6, DIMS[space]
     scene = chain_scene(5, modulus, space=space)
     system = assemble(scene)
-    march = march_of(system, 1.0, 20.0 / modulus, seed=51)
-    states = np.array(list(islice(march.states(system.to_state(scene.start()), 20.0 / modulus), 500, 8500)))
+    integrator = integrator_of(system, 1.0, 20.0 / modulus, seed=51)
+    states = np.array(list(islice(integrator.states(system.to_state(scene.start()), 20.0 / modulus), 500, 8500)))
     x = system.to_positions(states)
     stretching, bending = reference.stretching_energy(x, modulus), reference.bending_energy(x, modulus)
     stiffness = modulus / 8
@@ -341,7 +341,7 @@ def test_a_stiff_fiber_keeps_its_energy_at_large_steps(space):
 
 
 class LinearMotion:
-    """``ẋ = −M K x`` with constant symmetric matrices: what the march asks of a system, and of its mobility."""
+    """``ẋ = −M K x`` with constant symmetric matrices: what the integrator asks of a system, and of its mobility."""
 
     placed = False
 
@@ -382,7 +382,7 @@ def test_linear_springs_have_their_equilibrium_at_any_step():
     inverse = np.linalg.inv(root)
     system = LinearMotion(root @ root.T, inverse.T @ turn @ np.diag(rates / step) @ turn.T @ inverse)
     assert np.allclose(np.sort(np.linalg.eigvals(system.m @ system.k).real), np.sort(rates / step))
-    states = np.array(list(islice(march_of(system, temperature, step, 61).states(np.zeros(3), step), 200, 12200)))
+    states = np.array(list(islice(integrator_of(system, temperature, step, 61).states(np.zeros(3), step), 200, 12200)))
     covariance = block_average(states[:, :, None] * states[:, None, :])
     assert deviation(covariance, temperature * np.linalg.inv(system.k)) < 5
     stiff = (states @ inverse.T @ turn)[:, 0]  # the mode's energy is its rate times its square over two
@@ -470,8 +470,8 @@ def test_a_mobility_that_is_not_positive_is_refused():
 
 @pytest.mark.filterwarnings("ignore")
 def test_positions_that_are_not_finite_are_refused():
-    """A force that is not a number ends the march in the very step, and its remedy is the noise's."""
+    """A force that is not a number ends the integration in the very step, and its remedy is the noise's."""
     motion = LinearMotion(np.eye(2), np.eye(2))
     motion.velocity_jacobian = lambda x: np.full((2, 2), np.nan if x.any() else 0.0)
     with pytest.raises(NumericalError, match=r"^stochastic-midpoint: .*not finite at t = 0.2 .*noise\.step"):
-        list(islice(march_of(motion, 1.0, 0.1, seed=1).states(np.zeros(2), 1.0), 2))
+        list(islice(integrator_of(motion, 1.0, 0.1, seed=1).states(np.zeros(2), 1.0), 2))

@@ -80,7 +80,7 @@ def multipole_ratio(n_beads):
     return np.sqrt((spin @ friction @ across) / (spin @ friction @ along))
 
 
-def march(theta, interval, count, n_beads=N_BEADS, with_couple=True, flow="shear"):
+def integrated(theta, interval, count, n_beads=N_BEADS, with_couple=True, flow="shear"):
     """Shapes (count, N, 2) of a stiff fiber (ℬ = 1) in a flow every ``interval``, at first straight at ``theta``."""
     modulus = 24.0 * n_beads**3
     flow = LinearFlow(named_gradient(flow, RATE))
@@ -134,7 +134,7 @@ def test_stiff_fiber_tumbles_with_jeffery_period(n_beads):
     ratio = aspect_ratio(n_beads)
     period = 2 * np.pi * (ratio + 1 / ratio) / RATE
     interval = period / 1000
-    shapes = march(np.pi / 2, interval, 550, n_beads)
+    shapes = integrated(np.pi / 2, interval, 550, n_beads)
     assert np.abs(reference.bond_lengths(shapes) / 2 - 1).max() < 1e-3
     theta = angles(shapes)
     assert (np.diff(theta) < 0).all()
@@ -149,8 +149,8 @@ def test_without_the_couple_no_fiber_turns_past_alignment():
     the same fiber with the couple is upside down.
     """
     interval = 2 * np.pi * aspect_ratio(N_BEADS) / RATE / 100
-    alone = angles(march(0.2, interval, 100, with_couple=False))
-    turned_over = angles(march(0.2, interval, 100))
+    alone = angles(integrated(0.2, interval, 100, with_couple=False))
+    turned_over = angles(integrated(0.2, interval, 100))
     start, time = np.tan(0.2), interval * np.arange(100)
     assert (alone > 0).all()
     assert alone == pytest.approx(np.arctan(start / (1 + RATE * time * start)), rel=5e-3)
@@ -160,7 +160,7 @@ def test_without_the_couple_no_fiber_turns_past_alignment():
 def test_fiber_turns_with_a_rotating_fluid():
     """Neither couples nor rotlets act where nothing is strained: straight, of one length, at the fluid's rate."""
     interval = 2 * np.pi / RATE / 20
-    shapes = march(0.3, interval, 41, flow="rotation")
+    shapes = integrated(0.3, interval, 41, flow="rotation")
     assert np.abs(reference.bond_lengths(shapes) / 2 - 1).max() < 1e-6
     assert angles(shapes) == pytest.approx(0.3 + RATE * interval * np.arange(41), abs=1e-5)
     ends = (shapes[:, -1] - shapes[:, 0]) / (2 * (N_BEADS - 1))

@@ -5,6 +5,7 @@ Public names are imported on first use, so that a simulation never pays for torc
 """
 
 from importlib import import_module
+from typing import Any
 
 _EXPORTS = {
     "InputError": "sedfiber.core.errors",
@@ -25,7 +26,7 @@ _EXPORTS = {
 __all__ = [*_EXPORTS, "__version__"]
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> Any:
     if name == "__version__":
         return _version()
     if name not in _EXPORTS:

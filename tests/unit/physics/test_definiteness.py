@@ -66,7 +66,7 @@ FLOOR = {"wall": {"point": [0.0, -30.0, 0.0]}, "space": "volume", "hydrodynamics
 @pytest.mark.parametrize(
     ("method", "interval"), [("LSODA", 0.5), ("BDF", 0.5), ("Radau", 0.5), ("dopri5", 0.5), ("Radau", 100.0)]
 )
-def test_a_bead_in_the_wall_ends_every_march(method, interval):
+def test_a_bead_in_the_wall_ends_every_integration(method, interval):
     """At the first sample that finds it there, or where steps fail before; never with what the scene has."""
     words = rf"^{method}: bead \d+ is 0.\d+ a from the wall, less than its radius, at t = 1\d\.?\d* a/U_s; "
     with pytest.raises(NumericalError, match=f"{words}add contact, or a smaller t_end$"):

@@ -11,6 +11,7 @@ from sedfiber import Numerics, Scene, simulate, steady_state
 from sedfiber.scene.assembly import assemble
 from sedfiber.simulation.audit import audit
 from sedfiber.simulation.equilibria.transverse import leading_rate, transverse_matrix
+from sedfiber.simulation.recorded_run import Run
 
 WORDS = re.compile(
     r"^(?P<effect>[a-z ]+): left out, and it (?:does not matter \((?P<no>.+)\)|matters \((?P<yes>.+)\): add .+)$"
@@ -21,7 +22,7 @@ def verdicts(scene, *shapes):
     """What the audit says of a made-up run through the given shapes (N, d), a time unit apart."""
     system = assemble(scene)
     states = np.array([system.to_state(x) for x in shapes])
-    return {v.effect: v for v in audit(scene, system, np.arange(float(len(shapes))), states)}
+    return {v.effect: v for v in audit(scene, Run.of(system, np.arange(float(len(shapes))), states))}
 
 
 def scene(**parts):

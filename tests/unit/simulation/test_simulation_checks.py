@@ -8,6 +8,7 @@ import pytest
 from problems import bent_chain, straight_chain, system_of
 from sedfiber import NumericalError, Scene, simulate
 from sedfiber.simulation.checks import Checks, check
+from sedfiber.simulation.recorded_run import Run
 
 GOOD = Checks(
     bond_strain_max=0.01,
@@ -47,11 +48,11 @@ def test_broken_bounds_raise_by_name(broken, named):
     assert "\n" not in str(error.value)
 
 
-def states_of(system, shapes, work):
+def run_of(system, shapes, work):
     """A made-up run: positions (T, N, d) and the work done by each sample."""
     states = np.array([system.to_state(x) for x in shapes])
     states[:, -1] = work
-    return states
+    return Run.of(system, np.arange(float(len(states))), states)
 
 
 def test_strain_and_gap_are_the_extremes_over_the_run():
@@ -59,7 +60,7 @@ def test_strain_and_gap_are_the_extremes_over_the_run():
     system, scene = system_of(n_beads=5), Scene(1000, 0.5, 5)
     rest, stretched = straight_chain(5, 2), straight_chain(5, 2)
     stretched[4, 0] += 0.2
-    measured = check(system, states_of(system, [rest, stretched], 0.0), scene, 0.5)
+    measured = check(scene, system, run_of(system, [rest, stretched], 0.0), 0.5)
     assert measured.bond_strain_max == pytest.approx(0.1)
     assert measured.smallest_gap == pytest.approx(2.0)
     assert measured.strain_bound == 5 / scene.modulus
@@ -71,15 +72,15 @@ def test_energy_imbalance_is_relative_to_the_whole_loss():
     """Five beads fall by 1 and then by 3 more: 20 units lost; work 5 and 20.2 leaves an imbalance of 1 %."""
     system = system_of(n_beads=5)
     falls = [bent_chain(0, 5, 2) - np.array([0.0, depth]) for depth in (0.0, 1.0, 4.0)]
-    measured = check(system, states_of(system, falls, [0.0, 5.0, 20.2]), Scene(1000, 0.5, 5), 0.0)
+    measured = check(Scene(1000, 0.5, 5), system, run_of(system, falls, [0.0, 5.0, 20.2]), 0.0)
     assert measured.energy_imbalance == pytest.approx(0.01)
 
 
 def test_a_run_of_one_sample_is_in_balance():
     """Nothing has been lost yet."""
     system = system_of(n_beads=5)
-    states = states_of(system, [straight_chain(5, 2)], 0.0)
-    assert check(system, states, Scene(1000, 0.5, 5), 0.0).energy_imbalance == 0.0
+    run = run_of(system, [straight_chain(5, 2)], 0.0)
+    assert check(Scene(1000, 0.5, 5), system, run, 0.0).energy_imbalance == 0.0
 
 
 def test_a_run_that_breaks_a_bound_is_no_result(monkeypatch):
@@ -96,5 +97,5 @@ def test_the_mobility_is_examined_where_beads_overlap(r):
     scene = Scene(1000, 0.5, 3)
     system = system_of(n_beads=3)
     x = np.array([[0.0, 0.0], [r, 0.0], [1e6, 0.0]])
-    measured = check(system, states_of(system, [straight_chain(3, 2), x], 0.0), scene, 0.0)
+    measured = check(scene, system, run_of(system, [straight_chain(3, 2), x], 0.0), 0.0)
     assert measured.least_mobility == pytest.approx(expected, abs=1e-5)

@@ -203,7 +203,7 @@ def test_what_fails_is_a_row_with_its_reason(monkeypatch, outcome, status):
 
 
 def test_a_run_out_of_time_says_how_far_it_came():
-    """Marches look at the clock after each sample, SciPy's solvers before each step."""
+    """Integrators look at the clock after each sample, SciPy's solvers before each step."""
     fall = short_fall()
     with pytest.raises(OutOfTime) as stopped:
         METHODS[0].integrate(fall, 1e-6, 0.0)

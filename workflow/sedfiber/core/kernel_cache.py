@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 from numba import njit
 from numba.core import caching
+from numba.extending import intrinsic
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -26,6 +27,11 @@ def kept(**options: Any) -> Callable[[Function], Function]:
         return dispatcher
 
     return compiled
+
+
+def inlined(generator: Callable[..., Any]) -> Callable[..., Any]:
+    """Code that is written into the kernels that call it, without the typing context, its first argument."""
+    return intrinsic(generator)
 
 
 def sources_stamp(folder: Path) -> str:

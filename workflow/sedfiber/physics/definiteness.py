@@ -36,7 +36,7 @@ def wall_blame(mobility: Mobility, x: Positions) -> tuple[str, str] | None:
     if wall is None or not (heights := wall.heights(x)).min() < 1.0 - DEEPEST:
         return None
     lowest = int(heights.argmin())
-    remedy = "give a larger contact.strength" if mobility.has_contact else "add contact"
+    remedy = "give a larger contact.strength" if getattr(mobility, "has_contact", False) else "add contact"
     return (
         f"bead {lowest} is {heights[lowest]:.3g} a from the wall, less than its radius,",
         f"{remedy}, or a smaller t_end",

@@ -4,8 +4,12 @@ A trial step of a solver may put two beads into one place. An exception raised t
 solver's own compiled code; a number that is not finite makes it reject the step.
 """
 
-from functools import partial
+from collections.abc import Callable
+from typing import Any
 
-from sedfiber.core.kernel_cache import kept
+from sedfiber.core.kernel_cache import Function, kept
 
-kernel = partial(kept, error_model="numpy")
+
+def kernel(**options: Any) -> Callable[[Function], Function]:
+    """Compile with these options of ``numba.njit`` besides, and keep the result on disk."""
+    return kept(error_model="numpy", **options)

@@ -8,7 +8,7 @@ import numpy as np
 from sedfiber.core.array_types import Array, Matrix, Positions
 from sedfiber.physics.kernel import kernel
 
-Gradient = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
+Gradient = tuple[tuple[float, ...], ...]  # three rows of three
 
 _UNIT_RATE: dict[str, Gradient] = {
     "shear": ((0.0, 1.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
@@ -24,8 +24,7 @@ def named_gradient(name: str, rate: float) -> Gradient:
     ``shear``: ``u = rate (y, 0, 0)``; ``extension``, in the plane: ``u = rate (x, −y, 0)``;
     ``rotation``, counterclockwise: ``u = rate (−y, x, 0)``.
     """
-    first, second, third = (tuple(rate * entry for entry in row) for row in _UNIT_RATE[name])
-    return first, second, third
+    return tuple(tuple(rate * entry for entry in row) for row in _UNIT_RATE[name])
 
 
 @dataclass(frozen=True)

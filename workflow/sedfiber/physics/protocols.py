@@ -7,7 +7,7 @@ positions in the laboratory, which a wall or a flow needs.
 
 from typing import Protocol
 
-from sedfiber.core.array_types import Band, Matrix, Positions, State
+from sedfiber.core.array_types import Band, History, Matrix, Positions, State
 
 TO_THE_LAST = 1 << 62  # end of a range of beads that reaches to the last one
 
@@ -19,9 +19,10 @@ class Force(Protocol):
     ``add_jacobian`` adds to a band (5, d, d, N), otherwise to a matrix (N d, N d).
     """
 
-    placed: bool
-    banded: bool
-
+    @property
+    def placed(self) -> bool: ...
+    @property
+    def banded(self) -> bool: ...
     def add_force(self, x: Positions, force: Positions) -> None: ...
     def add_jacobian(self, x: Positions, jac: Band | Matrix) -> None: ...
 
@@ -35,7 +36,8 @@ class ConservativeForce(Force, Protocol):
 class Mobility(Protocol):
     """Turns forces into velocities."""
 
-    placed: bool
+    @property
+    def placed(self) -> bool: ...
 
     def velocity(self, x: Positions, force: Positions, u: Positions) -> None:
         """Write ``M(x) F`` to ``u``."""
@@ -59,9 +61,15 @@ class Flow(Protocol):
 class Equations(Protocol):
     """What an integrator asks of the equations of motion ``ẏ = f(t, y)``."""
 
-    rhs_count: int
-    jacobian_count: int
+    @property
+    def mobility(self) -> Mobility: ...
+    @property
+    def rhs_count(self) -> int: ...
+    @property
+    def jacobian_count(self) -> int: ...
 
+    def to_state(self, x: Positions) -> State: ...
+    def to_positions(self, states: State) -> History: ...
     def rhs(self, t: float, y: State) -> State: ...
     def jacobian(self, t: float, y: State) -> Matrix: ...
 

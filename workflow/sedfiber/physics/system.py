@@ -41,7 +41,7 @@ class System:
         self._add_force = tuple((part.add_force, part.placed) for part in forces)
         self._room = tuple(np.empty(self.shape) for _ in range(3))
         self.centre = n_beads // 2
-        self.placed = bool(flows) or any(part.placed for part in (mobility, *forces, *drives))
+        self.placed = bool(flows) or mobility.placed or any(part.placed for part in (*forces, *drives))
         self.rhs_count = 0
         self.jacobian_count = 0
 

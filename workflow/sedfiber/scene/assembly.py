@@ -7,6 +7,7 @@ from sedfiber.physics.pair_mobility import PairMobility
 from sedfiber.physics.protocols import ConservativeForce, Flow, Force, Mobility
 from sedfiber.physics.stretching import Stretching
 from sedfiber.physics.system import System
+from sedfiber.scene import parts
 from sedfiber.scene.scene import Scene
 
 
@@ -22,9 +23,9 @@ def assemble(scene: Scene) -> System:
         forces.append(Gravity(scene.gravity.weight))
     forces += _elasticity(scene)
     if scene.contact is not None:
-        forces += _contacts(scene)
+        forces += _contacts(scene, scene.contact)
     if scene.flow is not None:
-        _add_flow(scene, flows, drives)
+        _add_flow(scene, scene.flow, flows, drives)
     for own in scene.own:
         _add_own(own, forces, drives, flows)
     return System(forces, _mobility(scene), scene.n_fibers * scene.n_beads, scene.dim, drives, flows)
@@ -32,14 +33,14 @@ def assemble(scene: Scene) -> System:
 
 def _elasticity(scene: Scene) -> list[ConservativeForce]:
     """Springs and bending, fiber by fiber."""
-    parts: list[ConservativeForce] = []
+    elastic: list[ConservativeForce] = []
     for k, modulus in enumerate(scene.moduli):
         beads = (k * scene.n_beads, (k + 1) * scene.n_beads)
         if scene.stretching is not None:
-            parts.append(Stretching(scene.stretching.factor * modulus, *beads))
+            elastic.append(Stretching(scene.stretching.factor * modulus, *beads))
         if scene.bending is not None:
-            parts.append(_bending(modulus, scene.bending.curvature, beads))
-    return parts
+            elastic.append(_bending(modulus, scene.bending.curvature, beads))
+    return elastic
 
 
 def _bending(modulus: float, curvature: float, beads: tuple[int, int]) -> ConservativeForce:
@@ -50,10 +51,10 @@ def _bending(modulus: float, curvature: float, beads: tuple[int, int]) -> Conser
     return CurvedBending(modulus, curvature, *beads)
 
 
-def _contacts(scene: Scene) -> list[ConservativeForce]:
+def _contacts(scene: Scene, part: parts.Contact) -> list[ConservativeForce]:
     from sedfiber.physics.contact import Contact
 
-    law = (scene.contact.strength, scene.contact.reach)
+    law = (part.strength, part.reach)
     if scene.wall is None:
         return [Contact(*law, scene.n_beads)]
     from sedfiber.physics.wall_contact import WallContact
@@ -61,18 +62,14 @@ def _contacts(scene: Scene) -> list[ConservativeForce]:
     return [Contact(*law, scene.n_beads), WallContact(*law, scene.wall.point, scene.wall.normal)]
 
 
-def _add_flow(scene: Scene, flows: list[Flow], drives: list[Force]) -> None:
+def _add_flow(scene: Scene, part: parts.Flow, flows: list[Flow], drives: list[Force]) -> None:
     """The flow, the couple it exerts on beads that turn with their fiber, and the flow that these make."""
     from sedfiber.physics.couple_flow import CoupleFlow
     from sedfiber.physics.flow_couple import FlowCouple
-    from sedfiber.physics.linear_flow import LinearFlow, named_gradient
+    from sedfiber.physics.linear_flow import LinearFlow
     from sedfiber.physics.parabolic_flow import ParabolicFlow
 
-    part = scene.flow
-    if part.name == "parabolic":
-        flow = ParabolicFlow(part.peak, part.half_width)
-    else:
-        flow = LinearFlow(part.gradient or named_gradient(part.name, part.rate))
+    flow = LinearFlow(part.matrix) if part.parabola is None else ParabolicFlow(*part.parabola)
     flows.append(flow)
     if part.couple:
         drives.append(FlowCouple(flow, scene.n_beads))
@@ -80,7 +77,7 @@ def _add_flow(scene: Scene, flows: list[Flow], drives: list[Force]) -> None:
         flows.append(CoupleFlow(flow, scene.n_beads))
 
 
-def _add_own(own, forces: list[ConservativeForce], drives: list[Force], flows: list[Flow]) -> None:
+def _add_own(own: parts.Own, forces: list[ConservativeForce], drives: list[Force], flows: list[Flow]) -> None:
     from sedfiber.scene.own_effect import OwnFlow, load_own
 
     effect = load_own(own)

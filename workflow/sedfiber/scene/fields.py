@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from sedfiber.core.validation import number_within, one_of, positive_number, refused, whole_number
+from sedfiber.scene.part import Part
 from sedfiber.scene.parts import Bending, Contact, Disturbance, Fiber, Flow, Gravity, Noise, Own, Stretching, Wall
 from sedfiber.scene.shape import read_shape
 
@@ -100,7 +101,7 @@ class SceneFields:
         return 2.0 * self.B / 3.0
 
 
-def _each(kind: type, values: Any) -> tuple:
+def _each(kind: type[Part], values: Any) -> tuple:
     """A list of parts."""
     if values is None or values == "none":
         return ()

@@ -5,8 +5,10 @@ from dataclasses import dataclass, replace
 
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import number_within, one_of, positive_number, yes_or_no
-from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, AboveWall, March, StochasticMidpoint, Tolerances
+from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, AboveWall, Integrator, StochasticMidpoint, Tolerances
+from sedfiber.physics.protocols import Equations
 from sedfiber.physics.system import System
+from sedfiber.scene.parts import Noise
 from sedfiber.scene.scene import Scene
 
 # See docs/cost.md: no other method of the table reaches 1e-6 L in less time. Against Radau at 1e-10 over a third of
@@ -59,22 +61,24 @@ class Numerics:
         if scene.noise is None and self.integrator == STOCHASTIC:
             raise InputError(f"integrator: {STOCHASTIC} without noise is not allowed; give {', '.join(INTEGRATORS)}")
         if scene.noise is not None:
-            _require_step(scene, self.interval)
+            _require_step(scene, scene.noise, self.interval)
         return replace(self, integrator=self.integrator or fitting)
 
-    def march(self, system: System, scene: Scene) -> March:
+    def integrator_for(self, system: Equations, scene: Scene) -> Integrator:
         """The chosen integrator on ``system``."""
         tolerances = Tolerances(self.rtol, self.atol)
+        integrator: Integrator
         if scene.noise is not None:
-            march = StochasticMidpoint(system, tolerances, scene.noise.temperature, scene.noise.step, scene.seed)
+            assert isinstance(system, System)  # no symmetry is exact in noise
+            integrator = StochasticMidpoint(system, tolerances, scene.noise.temperature, scene.noise.step, scene.seed)
         else:
-            march = INTEGRATORS[self.integrator or DEFAULT_INTEGRATOR](system, tolerances)
-        return march if scene.wall is None else AboveWall(march)
+            integrator = INTEGRATORS[self.integrator or DEFAULT_INTEGRATOR](system, tolerances)
+        return integrator if scene.wall is None else AboveWall(integrator)
 
 
-def _require_step(scene: Scene, interval: float) -> None:
+def _require_step(scene: Scene, noise: Noise, interval: float) -> None:
     """The step of a scene with noise must divide the interval, and be short enough for its bonds."""
-    step, longest = scene.noise.step, _longest_step(scene)
+    step, longest = noise.step, _longest_step(scene, noise)
     fitting = interval / math.ceil(interval / min(step, longest, interval))
     ratio = interval / step
     if abs(ratio - round(ratio)) > 1e-9 * ratio or round(ratio) < 1:
@@ -89,9 +93,9 @@ def _require_step(scene: Scene, interval: float) -> None:
         )
 
 
-def _longest_step(scene: Scene) -> float:
+def _longest_step(scene: Scene, noise: Noise) -> float:
     """The step up to which the scheme keeps the bonds of a scene with noise; infinite where it has none."""
     if scene.stretching is None or scene.n_beads == 1:
         return math.inf
     modulus = scene.stretching.factor * max(scene.moduli)
-    return LONGEST_STEP * (2.0 / (scene.noise.temperature * modulus)) ** 0.5
+    return LONGEST_STEP * (2.0 / (noise.temperature * modulus)) ** 0.5

@@ -88,6 +88,8 @@ def load_own(own: Own) -> OwnForce | OwnFlow:
         raise InputError(f"own.file: {own.file!r} does not exist; give the path of a Python file")
     name = f"sedfiber_own_{hashlib.sha256(str(path.resolve()).encode()).hexdigest()[:12]}"
     spec = importlib.util.spec_from_file_location(name, path)
+    if spec is None or spec.loader is None:
+        raise InputError(f"own.file: {own.file!r} is not a Python file; give one whose name ends in .py")
     module = sys.modules[name] = importlib.util.module_from_spec(spec)  # where a dataclass looks for its module
     try:
         spec.loader.exec_module(module)
@@ -97,7 +99,7 @@ def load_own(own: Own) -> OwnForce | OwnFlow:
     except Exception as error:
         why = f"{type(error).__name__}: {error}".splitlines()[0]
         raise InputError(f"own: cannot make {own.effect!r} from {own.file!r} ({why})") from None
-    kinds = {"force": OwnForce, "velocity": OwnFlow}
+    kinds: dict[str, type[OwnForce] | type[OwnFlow]] = {"force": OwnForce, "velocity": OwnFlow}
     found = [method for method in kinds if callable(getattr(effect, method, None))]
     if len(found) == 1:
         return kinds[found[0]](own.effect, effect)

@@ -124,6 +124,21 @@ class Flow(Part):
                 self._check(check, name)
         self._check(yes_or_no, "couple")
 
+    @property
+    def parabola(self) -> tuple[float, float] | None:
+        """``peak`` and ``half_width`` of a parabolic flow, None of a linear one."""
+        return None if self.peak is None or self.half_width is None else (self.peak, self.half_width)
+
+    @property
+    def matrix(self) -> tuple[tuple[float, ...], ...]:
+        """G of a linear flow."""
+        if self.gradient is not None:
+            return self.gradient
+        from sedfiber.physics.linear_flow import named_gradient  # compiled: only for those who ask
+
+        assert self.name is not None and self.rate is not None  # or __post_init__ would have refused
+        return named_gradient(self.name, self.rate)
+
     def _wanted(self) -> tuple[str, ...]:
         if self.gradient is not None:
             return ("gradient",)

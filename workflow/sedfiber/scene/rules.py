@@ -6,7 +6,7 @@ from sedfiber.core.array_types import Positions
 from sedfiber.core.errors import InputError
 from sedfiber.physics.definiteness import CLOSE, closest_pair, least_eigenvalue
 from sedfiber.scene.fields import SceneFields
-from sedfiber.scene.parts import Flow
+from sedfiber.scene.parts import Flow, Wall
 from sedfiber.scene.start import start_positions
 
 _TOUCHING = 2.0 * (1.0 - 1e-9)
@@ -30,8 +30,9 @@ def require_sense(scene: SceneFields) -> None:
             "give shape: rest, another shape, or space: plane"
         )
     if scene.wall is not None:
-        _require_above_wall(scene, start_positions(scene))
-        _require_no_slip(scene)
+        _require_above_wall(scene.wall, start_positions(scene))
+        if scene.flow is not None:
+            _require_no_slip(scene.wall, scene.flow)
     if scene.fibers or scene.shape is not None or scene.disturbance is not None:
         _require_apart(scene, start_positions(scene))
     if scene.contact is not None and scene.n_fibers > 1:
@@ -70,8 +71,8 @@ def _require_flat(scene: SceneFields) -> None:
         raise InputError("disturbance.direction: out-of-plane in a planar scene is not allowed; give space: volume")
 
 
-def _require_above_wall(scene: SceneFields, x: Positions) -> None:
-    heights = (x - np.array(scene.wall.point)) @ np.array(scene.wall.normal)
+def _require_above_wall(wall: Wall, x: Positions) -> None:
+    heights = (x - np.array(wall.point)) @ np.array(wall.normal)
     lowest = int(heights.argmin())
     if heights[lowest] < 1.0:
         raise InputError(
@@ -80,15 +81,13 @@ def _require_above_wall(scene: SceneFields, x: Positions) -> None:
         )
 
 
-def _require_no_slip(scene: SceneFields) -> None:
+def _require_no_slip(wall: Wall, flow: Flow) -> None:
     """A flow through or along the wall contradicts it."""
-    if scene.flow is None:
-        return
-    point, normal = np.array(scene.wall.point), np.array(scene.wall.normal)
+    point, normal = np.array(wall.point), np.array(wall.normal)
     along = np.linalg.svd(normal[None])[2][1:]  # two directions in the wall
     on_wall = point + np.array([a * along[0] + b * along[1] for a in (-1, 0, 1) for b in (-1, 0, 1)])
-    slip = np.abs(_flow_velocity(scene.flow, on_wall)).max()  # at most quadratic: zero there means all over the wall
-    usual = np.abs(_flow_velocity(scene.flow, (1.0 + np.abs(point).max()) * np.eye(3))).max()
+    slip = np.abs(_flow_velocity(flow, on_wall)).max()  # at most quadratic: zero there means all over the wall
+    usual = np.abs(_flow_velocity(flow, (1.0 + np.abs(point).max()) * np.eye(3))).max()
     if slip > _NO_SLIP * usual:
         raise InputError(
             f"flow: is {slip:.3g} U_s at wall.point or beside it, on a wall without slip; give a flow that is zero "
@@ -98,11 +97,10 @@ def _require_no_slip(scene: SceneFields) -> None:
 
 def _flow_velocity(flow: Flow, x: Positions) -> Positions:
     """Velocity of the fluid, and not of a bead in it, at points (P, 3)."""
-    if flow.name == "parabolic":
-        return np.outer(flow.peak * (1.0 - (x[:, 1] / flow.half_width) ** 2), [1.0, 0.0, 0.0])
-    from sedfiber.physics.linear_flow import named_gradient  # compiled: only for those who ask
-
-    return x @ np.array(flow.gradient or named_gradient(flow.name, flow.rate)).T
+    if flow.parabola is None:
+        return x @ np.array(flow.matrix).T
+    peak, half_width = flow.parabola
+    return np.outer(peak * (1.0 - (x[:, 1] / half_width) ** 2), [1.0, 0.0, 0.0])
 
 
 def _require_apart(scene: SceneFields, x: Positions) -> None:

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from sedfiber.core.array_types import History, State, Times
+from sedfiber.core.array_types import History
 from sedfiber.physics.gaps import closest_distance, smallest_gap
 from sedfiber.physics.pair_forms import RPY, RPY_OVERLAP, coefficients
-from sedfiber.physics.system import System
+from sedfiber.scene.parts import Gravity
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.equilibria.transverse import transverse_rates
+from sedfiber.simulation.recorded_run import Run
 
 MOBILITY_CHANGE = 0.01  # relative change of a pair's mobility from which the overlap form matters
 STRETCH = 0.05  # bond strain from which a fiber is no longer an inextensible one
@@ -44,9 +45,9 @@ class Verdict:
         return {"effect": self.effect, "matters": self.matters, "number": self.number, "words": self.words}
 
 
-def audit(scene: Scene, system: System, t: Times, states: State) -> list[Verdict]:
-    """Weigh what ``scene`` left out at the times (T,) and states (T, beads d + 1) of its run."""
-    shapes = np.ascontiguousarray(system.to_shapes(states)[..., : scene.dim])
+def audit(scene: Scene, run: Run) -> list[Verdict]:
+    """Weigh what ``scene`` left out in its run."""
+    shapes = np.ascontiguousarray(run.shapes[..., : scene.dim])
     found = []
     beads = scene.n_fibers * scene.n_beads
     if scene.hydrodynamics == "RPY" and beads > 1:
@@ -54,11 +55,11 @@ def audit(scene: Scene, system: System, t: Times, states: State) -> list[Verdict
     if scene.contact is None and beads > 2:
         found.append(_contact(shapes, scene.n_beads))
     if _may_leave_plane(scene):
-        found.append(_third_dimension(scene, system, t, states))
+        found.append(_third_dimension(scene, run))
     if scene.wall is None and scene.depth is not None and scene.gravity is not None:
-        found.append(_bottom(scene, system.to_positions(states)))
+        found.append(_bottom(scene.gravity, scene.depth, run.positions))
     if scene.wall is None and scene.flow is not None and scene.flow.half_width is not None:
-        found.append(_channel(scene.flow.half_width, system.to_positions(states)))
+        found.append(_channel(scene.flow.half_width, run.positions))
     if scene.stretching is not None and scene.n_beads > 1:
         found.append(_stretch(shapes, scene.n_beads, scene.stretching.factor))
     return found
@@ -91,14 +92,14 @@ def _may_leave_plane(scene: Scene) -> bool:
     return scene.space == "plane" and scene.n_beads > 2 and scene.noise is None and not scene.own and not curved
 
 
-def _third_dimension(scene: Scene, system: System, t: Times, states: State) -> Verdict:
+def _third_dimension(scene: Scene, run: Run) -> Verdict:
     """Out-of-plane disturbances: their leading rate at the end, the largest along the way, and what it adds up to.
 
     The rates are those of a state held still, so their sum bounds the growth only roughly.
     """
-    chosen = np.unique(np.linspace(0, len(states) - 1, _STATES).astype(int))
-    rates = transverse_rates(scene, system, states[chosen])
-    growth = float(np.exp(min(np.trapezoid(np.maximum(rates, 0.0), t[chosen]), 700.0)))
+    chosen = np.unique(np.linspace(0, len(run.t) - 1, _STATES).astype(int))
+    rates = transverse_rates(scene, run.shapes[chosen], run.positions[chosen])
+    growth = float(np.exp(min(np.trapezoid(np.maximum(rates, 0.0), run.t[chosen]), 700.0)))
     meaning = (
         f"U_s/a, leading out-of-plane rate at the end; {rates.max():.3g} at most along the way, "
         f"growth up to {growth:.2g} times"
@@ -108,11 +109,11 @@ def _third_dimension(scene: Scene, system: System, t: Times, states: State) -> V
     return Verdict("third dimension", matters, float(rates[-1]), meaning, remedy)
 
 
-def _bottom(scene: Scene, positions: History) -> Verdict:
+def _bottom(gravity: Gravity, depth: float, positions: History) -> Verdict:
     """How far the lowest bead fell, over the stated depth."""
-    down = positions @ np.array(scene.gravity.direction)
-    fall = float((down.max(axis=1) - down[0].max()).max()) / scene.depth
-    return Verdict("wall", fall > 1.0, fall, f"of the depth {scene.depth:g} a fallen", "wall: {point: …}")
+    down = positions @ np.array(gravity.direction)
+    fall = float((down.max(axis=1) - down[0].max()).max()) / depth
+    return Verdict("wall", fall > 1.0, fall, f"of the depth {depth:g} a fallen", "wall: {point: …}")
 
 
 def _channel(half_width: float, positions: History) -> Verdict:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from sedfiber.scene.parts import Flow
 from sedfiber.scene.scene import Scene
 
 _UNLOADED = 0.01  # where nothing pulls, tolerances do
@@ -32,7 +33,7 @@ def strain_bound(scene: Scene) -> float | None:
 def _other_loads(scene: Scene) -> float:
     n, load = scene.n_beads, 0.0
     if scene.flow is not None:
-        load += _steepest(scene) * n * n
+        load += _steepest(scene, scene.flow) * n * n
     if scene.contact is not None:
         load += 2.0 * scene.contact.strength
     if scene.bending is not None and scene.shape is not None:
@@ -40,10 +41,10 @@ def _other_loads(scene: Scene) -> float:
     return load + (n if scene.n_fibers > 1 and scene.gravity else 0.0)
 
 
-def _steepest(scene: Scene) -> float:
+def _steepest(scene: Scene, flow: Flow) -> float:
     """A rate of the flow that is not exceeded near the fiber."""
-    flow = scene.flow
-    if flow.name == "parabolic":
+    if flow.parabola is not None:
+        peak, half_width = flow.parabola
         reach = scene.n_beads + float(np.abs(scene.start()[:, 1]).max())
-        return 4.0 * abs(flow.peak) * reach / flow.half_width**2
-    return abs(flow.rate) if flow.gradient is None else float(np.linalg.norm(flow.gradient, 2))
+        return 4.0 * abs(peak) * reach / half_width**2
+    return float(np.linalg.norm(flow.matrix, 2)) if flow.rate is None else abs(flow.rate)

@@ -4,13 +4,16 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from sedfiber.core.array_types import Array, History, State
+from sedfiber.core.array_types import Array, History
 from sedfiber.core.errors import NumericalError
 from sedfiber.physics.definiteness import CLOSE, OVERLAP_REMEDY, least_eigenvalue
 from sedfiber.physics.gaps import closest_distance, smallest_gap
+from sedfiber.physics.mirror import MirrorSymmetric
 from sedfiber.physics.system import System
+from sedfiber.scene.parts import Wall
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.bounds import strain_bound
+from sedfiber.simulation.recorded_run import Run
 
 _LOOKED_AT = 32  # samples of closest approach whose mobility is examined
 ENERGY_BALANCE = 1e-4  # of the energy lost; the default tolerances reach about 1e-6
@@ -60,19 +63,19 @@ class Checks:
             raise NumericalError(f"check failed: {name} {value:.3g} is above its bound {bound:.3g}; {advice}")
 
 
-def check(system: System, states: State, scene: Scene, final_distance: float | None) -> Checks:
-    """Measure a finished run from its states (T, beads d + 1)."""
-    positions = system.to_positions(states)[..., : scene.dim]
-    shapes = np.ascontiguousarray(system.to_shapes(states)[..., : scene.dim])
+def check(scene: Scene, system: System | MirrorSymmetric, run: Run, final_distance: float | None) -> Checks:
+    """Measure a finished run of ``system``."""
+    positions = run.positions[..., : scene.dim]
+    shapes = np.ascontiguousarray(run.shapes[..., : scene.dim])
     balanced = scene.noise is None
     return Checks(
         bond_strain_max=_largest_strain(shapes, scene.n_beads),
         strain_bound=strain_bound(scene),
         smallest_gap=_smallest_gap(shapes, scene.n_beads),
-        energy_imbalance=_energy_imbalance(system, scene, positions, states[:, -1]) if balanced else None,
+        energy_imbalance=_energy_imbalance(system, scene, positions, run.work) if balanced else None,
         energy_bound=ENERGY_BALANCE if balanced else None,
         final_distance=final_distance,
-        wall_gap=None if scene.wall is None else float(_heights(scene, positions).min()) - 1.0,
+        wall_gap=None if scene.wall is None else _wall_gap(scene.wall, positions),
         least_mobility=_least_mobility(system, positions) if scene.hydrodynamics in ("RPY", "Oseen") else None,
     )
 
@@ -90,7 +93,7 @@ def _smallest_gap(shapes: History, n_beads: int) -> float | None:
     return None if np.isinf(gap) else gap
 
 
-def _least_mobility(system: System, positions: History) -> float | None:
+def _least_mobility(system: System | MirrorSymmetric, positions: History) -> float | None:
     """Over the samples where beads come closest; None where none come close."""
     nearest = np.array([closest_distance(np.ascontiguousarray(x)) for x in positions])
     close = np.argsort(nearest, kind="stable")[:_LOOKED_AT]
@@ -98,11 +101,12 @@ def _least_mobility(system: System, positions: History) -> float | None:
     return min(found, default=None)
 
 
-def _heights(scene: Scene, positions: History) -> Array:
-    return (positions - np.array(scene.wall.point)) @ np.array(scene.wall.normal)
+def _wall_gap(wall: Wall, positions: History) -> float:
+    heights = (positions - np.array(wall.point)) @ np.array(wall.normal)
+    return float(heights.min()) - 1.0
 
 
-def _energy_imbalance(system: System, scene: Scene, positions: History, work: Array) -> float:
+def _energy_imbalance(system: System | MirrorSymmetric, scene: Scene, positions: History, work: Array) -> float:
     """Energy lost against work done, relative to all the energy that changed hands in the run.
 
     Where next to none does (a rigid fiber tumbling), relative to that of the fiber bent through

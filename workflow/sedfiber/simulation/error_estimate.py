@@ -9,13 +9,13 @@ from itertools import islice
 
 import numpy as np
 
-from sedfiber.core.array_types import State
 from sedfiber.core.errors import NumericalError
 from sedfiber.physics.mirror import MirrorSymmetric
 from sedfiber.physics.system import System
 from sedfiber.scene.numerics import Numerics
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.differences import largest_distance
+from sedfiber.simulation.recorded_run import Run
 
 TIGHTER = 1e-2  # of the run's tolerances
 LEAST = 1e-12  # tolerance below which round-off rules
@@ -28,16 +28,16 @@ def needs_estimate(scene: Scene, numerics: Numerics) -> bool:
     return scene.noise is None and (numerics.estimate_error or _loosest(numerics) > LOOSE)
 
 
-def estimate_error(scene: Scene, numerics: Numerics, system: System | MirrorSymmetric, states: State) -> float:
+def estimate_error(scene: Scene, numerics: Numerics, system: System | MirrorSymmetric, run: Run) -> float:
     """Largest root-mean-square bead distance over L from the same run at a hundredth of the tolerances.
 
-    ``states`` are those of the run of ``system``.  Raises NumericalError when a run at loose
+    ``run`` is one of ``system``.  Raises NumericalError when a run at loose
     tolerances is further off than five times them: its steps fit, but where they lead does not.
     """
     tight = replace(numerics, rtol=_tighter(numerics.rtol), atol=_tighter(numerics.atol))
-    march = tight.march(system, scene)
-    again = np.array(list(islice(march.states(system.to_state(scene.start()), tight.interval), len(states))))
-    error = largest_distance(system.to_positions(again), system.to_positions(states), scene.length)
+    integrator = tight.integrator_for(system, scene)
+    again = np.array(list(islice(integrator.states(system.to_state(scene.start()), tight.interval), len(run.t))))
+    error = largest_distance(system.to_positions(again), run.positions, scene.length)
     loosest = _loosest(numerics)
     if loosest > LOOSE and not error <= PROPORTION * loosest:
         raise NumericalError(

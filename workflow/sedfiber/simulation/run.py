@@ -7,10 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
-from sedfiber.core.array_types import State, Times
+from sedfiber.core.array_types import Positions, State
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import positive_number
-from sedfiber.physics.integrators import March
+from sedfiber.physics.integrators import Integrator
 from sedfiber.physics.mirror import MirrorSymmetric
 from sedfiber.physics.system import System
 from sedfiber.scene.assembly import assemble
@@ -19,8 +19,9 @@ from sedfiber.scene.scene import Scene
 from sedfiber.simulation.audit import audit
 from sedfiber.simulation.checks import check
 from sedfiber.simulation.error_estimate import estimate_error, needs_estimate
+from sedfiber.simulation.recorded_run import Run
 from sedfiber.simulation.settling import distance_to_terminal, settling_time
-from sedfiber.simulation.settling_monitor import Watch
+from sedfiber.simulation.settling_monitor import SettlingMonitor
 from sedfiber.simulation.trajectory import Trajectory
 
 _LOOK_EVERY = 16  # samples between two looks at whether the run has settled
@@ -55,23 +56,23 @@ def simulate(
             "(--t-end; in a scene file, t_end under numerics)"
         )
     system = system_of(scene)
-    march = numerics.march(system, scene)
-    watch = Watch(scene, system, numerics.t_end is not None, numerics.max_time)
-    states = _run(march, scene, watch, numerics, progress)
-    t = numerics.interval * np.arange(len(states))
-    settled_to = watch.settled_to(states[-1])
-    t, states, settled, distance = _cut(t, states, watch, system, scene, numerics)
-    checks = check(system, states, scene, distance)
+    integrator = numerics.integrator_for(system, scene)
+    monitor = SettlingMonitor(scene, system, numerics.t_end is not None, numerics.max_time)
+    states = _integrate(integrator, scene, monitor, numerics, progress)
+    run = Run.of(system, numerics.interval * np.arange(len(states)), states)
+    settled_to = monitor.settled_to(run.states[-1], run.shapes[-1])
+    run, settled, distance = _cut(run, monitor.terminal, settled_to, scene, numerics)
+    checks = check(scene, system, run, distance)
     checks.require(own_effects=bool(scene.own))
-    estimated = estimate_error(scene, numerics, system, states) if needs_estimate(scene, numerics) else None
-    metadata = _metadata(scene, numerics, march) | {
+    estimated = estimate_error(scene, numerics, system, run) if needs_estimate(scene, numerics) else None
+    metadata = _metadata(scene, numerics, integrator) | {
         "checks": checks.to_dict(),
         "error_estimate": estimated,
         "settled_to": settled_to,
         "settling_time": settled,
-        "audit": [verdict.to_dict() for verdict in audit(scene, system, t, states)],
+        "audit": [verdict.to_dict() for verdict in audit(scene, run)],
     }
-    return Trajectory(t, system.to_positions(states), metadata)
+    return Trajectory(run.t, run.positions, metadata)
 
 
 def system_of(scene: Scene) -> System | MirrorSymmetric:
@@ -80,38 +81,40 @@ def system_of(scene: Scene) -> System | MirrorSymmetric:
     return MirrorSymmetric(system) if scene.is_mirror_symmetric else system
 
 
-def _run(march: March, scene: Scene, watch: Watch, numerics: Numerics, progress: Watcher | None) -> State:
+def _integrate(
+    integrator: Integrator, scene: Scene, monitor: SettlingMonitor, numerics: Numerics, progress: Watcher | None
+) -> State:
     """Collect states (T, beads d + 1) until the end, or until the run has settled beyond doubt."""
     t_end = numerics.t_end
     last = np.inf if t_end is None else np.floor(t_end / numerics.interval * (1 + 1e-12))
     collected: list[State] = []
-    for k, y in enumerate(march.states(march.system.to_state(scene.start()), numerics.interval)):
+    for k, y in enumerate(integrator.states(integrator.system.to_state(scene.start()), numerics.interval)):
         collected.append(y)
         if progress:
             progress(k * numerics.interval, t_end)
-        if k >= last or (t_end is None and k % _LOOK_EVERY == 0 and watch.is_over(k * numerics.interval, y)):
+        if k >= last or (t_end is None and k % _LOOK_EVERY == 0 and monitor.is_over(k * numerics.interval, y)):
             break
     return np.array(collected)
 
 
 def _cut(
-    t: Times, states: State, watch: Watch, system: System | MirrorSymmetric, scene: Scene, numerics: Numerics
-) -> tuple[Times, State, float | None, float | None]:
-    """Samples up to the first after the settling time to the terminal U, that time, and the last distance to it."""
-    if watch.terminal is None:
-        return t, states, None, None
-    history = distance_to_terminal(system.to_shapes(states), watch.terminal, scene.length)
-    settled = settling_time(t, history) if watch.settled_to(states[-1]) == "U" else None
-    keep = len(t) if settled is None or numerics.t_end is not None else int(np.searchsorted(t, settled)) + 1
-    return t[:keep], states[:keep], settled, float(history[keep - 1])
+    run: Run, terminal: Positions | None, settled_to: str | None, scene: Scene, numerics: Numerics
+) -> tuple[Run, float | None, float | None]:
+    """The run up to the first sample after the settling time to the terminal U, that time, and the last distance."""
+    if terminal is None:
+        return run, None, None
+    distance = distance_to_terminal(run.shapes, terminal, scene.length)
+    settled = settling_time(run.t, distance) if settled_to == "U" else None
+    keep = len(run.t) if settled is None or numerics.t_end is not None else int(np.searchsorted(run.t, settled)) + 1
+    return run.until(keep), settled, float(distance[keep - 1])
 
 
-def _metadata(scene: Scene, numerics: Numerics, march: March) -> dict:
+def _metadata(scene: Scene, numerics: Numerics, integrator: Integrator) -> dict:
     facts = {
         "kind": "simulation",
         **scene.facts(),
         "numerics": asdict(numerics),
-        "counters": asdict(march.counters),
+        "counters": asdict(integrator.counters),
     }
     own = {part.file: hashlib.sha256(Path(part.file).read_bytes()).hexdigest() for part in scene.own}
     return facts | {"own_sha256": own} if own else facts

@@ -17,7 +17,7 @@ _STANDSTILL = 1e-9  # U_s: relative bead speeds below this mean that the shape i
 _RESTING = 1e-5  # U_s: below this a shape may be compared with the W
 
 
-class Watch:
+class SettlingMonitor:
     """Looks at the states of a run of ``scene`` and knows the shapes that it may settle to.
 
     ``terminal`` (N, 3) is the terminal U relative to the centre bead, or None where the scene has
@@ -29,20 +29,21 @@ class Watch:
         self._symmetric = isinstance(system, MirrorSymmetric)
         self.terminal = self._terminal(needed=not (ends or self._symmetric))
         if not ends and self.terminal is not None:
-            self._require_attraction(system.to_state(scene.start()))
+            self._require_attraction(system.to_shapes(system.to_state(scene.start())))
 
     def is_over(self, t: float, y: State) -> bool:
         """Whether the run at time ``t`` has settled beyond doubt; raises NumericalError when it never will."""
-        distance = self.distance(y)
+        shape = self._system.to_shapes(y)
+        distance = self._distance(shape, self.terminal)
         if distance < CONFIRMED:
             return True
         if t > self._max_time:
             raise NumericalError(f"not settled by t = {self._max_time:g} (distance {distance:.3g} L); give --t-end")
         if distance < SETTLED or np.abs(self._system.relative_velocities(y)).max() > _STANDSTILL:
             return False
-        if self._symmetric and self.settled_to(y) is not None:
+        if self._symmetric and self.settled_to(y, shape) is not None:
             return True
-        name = "the unstable W" if self.settled_to(y) == "W" else "a steady shape"
+        name = "the unstable W" if self.settled_to(y, shape) == "W" else "a steady shape"
         raise NumericalError(
             f"came to rest at t = {t:g} in {name}, {distance:.3g} L from the terminal one; {self._way_out()}"
         )
@@ -53,24 +54,27 @@ class Watch:
             return "a vertical fiber falls along its axis: give another theta0, or --t-end"
         return "give --t-end, or a larger --tilt to leave a symmetric start"
 
-    def settled_to(self, y: State) -> str | None:
-        """Name of the steady shape a state is within 1e-3 L of: "U" if it stays, "W" if it rests there, or None."""
-        if self.distance(y) < SETTLED:
-            return "U" if self._leaving_rate(y) < round_off(self._scene) else None
+    def settled_to(self, y: State, shape: Positions) -> str | None:
+        """Name of the steady shape that ``shape`` (N, 3) of state ``y`` is within 1e-3 L of, or None.
+
+        "U" if the run stays there, "W" if it rests there.
+        """
+        if self._distance(shape, self.terminal) < SETTLED:
+            return "U" if self._leaving_rate(shape) < round_off(self._scene) else None
         if not self._scene.has_terminal_shape or np.abs(self._system.relative_velocities(y)).max() > _RESTING:
             return None
         try:
             w = terminal_state(self._scene, "W").positions
         except NumericalError:
             return None
-        return "W" if self._distance(y, w) < SETTLED else None
+        return "W" if self._distance(shape, w) < SETTLED else None
 
-    def _leaving_rate(self, y: State) -> float:
-        """Largest rate in U_s/a at which a run that is at state ``y`` now can leave the terminal U."""
-        flat = not self._system.to_shapes(y)[:, 2].any()
-        return leaving_rate(self._scene, self.terminal, self._symmetric, flat)
+    def _leaving_rate(self, shape: Positions) -> float:
+        """Largest rate in U_s/a at which a run that is at ``shape`` now can leave the terminal U."""
+        assert self.terminal is not None  # callers have looked
+        return leaving_rate(self._scene, self.terminal, self._symmetric, flat=not shape[:, 2].any())
 
-    def _require_attraction(self, start: State) -> None:
+    def _require_attraction(self, start: Positions) -> None:
         """A run without an end needs a terminal shape that it does not leave."""
         rate = self._leaving_rate(start)
         if rate >= round_off(self._scene) and not self._symmetric:
@@ -79,12 +83,9 @@ class Watch:
                 f"(rate {rate:.3g} U_s/a), and it will not settle; give --t-end"
             )
 
-    def distance(self, y: State) -> float:
-        """Root-mean-square bead distance to the terminal U over L; infinite where there is none."""
-        return np.inf if self.terminal is None else self._distance(y, self.terminal)
-
-    def _distance(self, y: State, shape: Positions) -> float:
-        return float(distance_to_terminal(self._system.to_shapes(y), shape, self._scene.length))
+    def _distance(self, shape: Positions, steady: Positions | None) -> float:
+        """Root-mean-square bead distance to a steady shape over L; infinite where there is none."""
+        return np.inf if steady is None else float(distance_to_terminal(shape, steady, self._scene.length))
 
     def _terminal(self, needed: bool) -> Positions | None:
         if not self._scene.has_terminal_shape:

@@ -81,8 +81,8 @@ def _costs(scene: Scene, t_end: float) -> dict[str, float]:
 def _integrate(scene: Scene, t_end: float) -> None:
     """The integration alone, without checks and audit."""
     numerics = Numerics().for_scene(scene)
-    march = numerics.march(assemble(scene), scene)
-    for k, _ in enumerate(march.states(march.system.to_state(scene.start()), numerics.interval)):
+    integrator = numerics.integrator_for(assemble(scene), scene)
+    for k, _ in enumerate(integrator.states(integrator.system.to_state(scene.start()), numerics.interval)):
         if k * numerics.interval >= t_end:
             return
 

@@ -1,4 +1,4 @@
-"""What every integrator has in common: a march through equally spaced samples."""
+"""What every integrator has in common: it goes through equally spaced samples."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ class Tolerances:
 
 @dataclass
 class Counters:
-    """What a march cost, in numbers that hold on any machine."""
+    """What an integration cost, in numbers that hold on any machine."""
 
     steps: int = 0
     rhs: int = 0
@@ -34,7 +34,7 @@ class Counters:
     factorisations: int = 0
 
 
-class March(ABC):
+class Integrator(ABC):
     """States at ``t = 0, τ, 2τ, …`` for as long as the caller asks for more.
 
     A subclass sets ``name`` and writes ``states``.  A step that fails, or a state that is
@@ -53,7 +53,7 @@ class March(ABC):
         """Yield the start, then the state after each further ``interval``."""
 
     def failed(self, t: float, why: str, advice: str) -> NumericalError:
-        """The error for a march that stops at time ``t``."""
+        """The error for an integration that stops at time ``t``."""
         return NumericalError(f"{self.name}: {why} at t = {t:.6g} a/U_s; {advice}")
 
     def stuck(self, t: float, y: State, why: str, advice: str) -> NumericalError:

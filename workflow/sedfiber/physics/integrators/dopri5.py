@@ -8,12 +8,12 @@ import numpy as np
 from scipy.integrate import ode
 
 from sedfiber.core.array_types import State
-from sedfiber.physics.integrators.base import March
+from sedfiber.physics.integrators.base import Integrator
 
 _STEPS_PER_CALL = 1000  # dopri5 tests for stiffness, and gives up, in blocks of this many
 
 
-class Dopri5(March):
+class Dopri5(Integrator):
     """``ode('dopri5')``, called once per sample as Fox & Graham 2024 describe.
 
     Its give-up ("probably stiff") is only visible in ``successful()``; here it is an error.

@@ -3,16 +3,16 @@
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.integrate import BDF, OdeSolver, Radau
+from scipy import integrate
 
 from sedfiber.core.array_types import Matrix, State
-from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST, MOST_STEPS, March
+from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST, MOST_STEPS, Integrator
 
 
-class _SciPyMarch(March):
+class _SciPyIntegrator(Integrator):
     """Step a SciPy ``OdeSolver`` and read the samples off its dense output."""
 
-    solver_class: type[OdeSolver]
+    solver_class: type[integrate.OdeSolver]
 
     def states(self, start: State, interval: float) -> Iterator[State]:
         solver = self.solver_class(
@@ -45,7 +45,7 @@ class _SciPyMarch(March):
             raise self.stuck(t, y, "the Jacobian is not finite", "try a smaller --rtol")
         return jac
 
-    def _step(self, solver: OdeSolver) -> None:
+    def _step(self, solver: integrate.OdeSolver) -> None:
         before = solver.t
         solver.step()
         self.counters.steps += 1
@@ -57,13 +57,13 @@ class _SciPyMarch(March):
             raise self.stuck(solver.t, solver.y, "the step size fell to zero", "try another --rtol or --integrator")
 
 
-class BDFMarch(_SciPyMarch):
+class BDF(_SciPyIntegrator):
     """Variable-order backward differentiation, orders 1–5 (Shampine & Reichelt 1997)."""
 
-    name, solver_class = "BDF", BDF
+    name, solver_class = "BDF", integrate.BDF
 
 
-class RadauMarch(_SciPyMarch):
+class Radau(_SciPyIntegrator):
     """Implicit Runge–Kutta Radau IIA of order 5 (Hairer & Wanner 1996)."""
 
-    name, solver_class = "Radau", Radau
+    name, solver_class = "Radau", integrate.Radau

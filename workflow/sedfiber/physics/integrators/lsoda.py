@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from scipy.integrate import ode
 
 from sedfiber.core.array_types import State
-from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST, MOST_STEPS, March
+from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST, MOST_STEPS, Integrator
 
 _STEPS, _JACOBIANS = 10, 12  # places of ODEPACK's counters in its integer work array
 _OUT_OF_STEPS, _OUT_OF_ACCURACY = -1, -2
@@ -20,7 +20,7 @@ _NO_CONVERGENCE = ("Newton's iterations do not converge, however short the step,
 warnings.filterwarnings("ignore", message="lsoda: ", category=UserWarning)
 
 
-class LSODAMarch(March):
+class LSODA(Integrator):
     """ODEPACK's LSODA (Petzold 1983) with the analytic Jacobian, called once per sample.
 
     ``scipy.integrate.LSODA`` takes the same steps, but builds an interpolant in Python after each

@@ -22,14 +22,15 @@ import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, lu_factor, lu_solve, solve_triangular
 
 from sedfiber.core.array_types import Matrix, Positions, State
-from sedfiber.physics.integrators.base import March, Tolerances
+from sedfiber.physics.integrators.base import Integrator, Tolerances
 from sedfiber.physics.system import System
 
 
-class StochasticMidpoint(March):
+class StochasticMidpoint(Integrator):
     """Fixed steps of ``step`` that divide the sampling interval; every random number is from ``seed``."""
 
     name = "stochastic-midpoint"
+    system: System  # of whole fibers: noise breaks any symmetry
 
     def __init__(self, system: System, tolerances: Tolerances, temperature: float, step: float, seed: int):
         super().__init__(system, tolerances)

@@ -65,16 +65,26 @@ class Lanes(NamedTuple):
 
 def lanes_for(work: Work, count: int) -> Lanes:
     """Memory for so many lanes."""
-    n, r, width = work.raw.shape[1], work.modes.shape[0], work.modes.shape[1]
-    dtype, float_sizes = work.modes.dtype, ((n,), (STAGES, n), (3,), (n,))
-    path = [(PIECE + 1,), (PIECE, DEGREE + 1, n)]
+    n, dtype = work.raw.shape[1], work.modes.dtype
+
+    def room(*size: int) -> Array:
+        return np.zeros((count, *size))
+
     return Lanes(
-        np.zeros((count, 3), np.int64),
-        *(np.zeros((count, *size)) for size in (*path, *float_sizes)),
-        np.zeros((count, work.rates.widths[0]), dtype),
-        *(np.zeros((count, n)) for _ in range(2)),
-        np.zeros((count, 1, work.decoder.widths[0]), dtype),
-        *(np.zeros((count, size)) for size in (r, width, 2)),
+        counters=np.zeros((count, 3), np.int64),
+        mesh=room(PIECE + 1),
+        path=room(PIECE, DEGREE + 1, n),
+        y=room(n),
+        k=room(STAGES, n),
+        clock=room(3),
+        atol=room(n),
+        bias=np.zeros((count, work.rates.widths[0]), dtype),
+        constant=room(n),
+        pace=room(n),
+        shape_bias=np.zeros((count, 1, work.decoder.widths[0]), dtype),
+        shape_constant=room(work.modes.shape[0]),
+        base=room(work.modes.shape[1]),
+        velocity=room(2),
     )
 
 

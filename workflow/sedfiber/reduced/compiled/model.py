@@ -110,25 +110,28 @@ class CompiledModel(TrainedModel):
         same = all(origin.encoder is origins[0].encoder for origin in origins)
         encoders = np.array([origin.encoder for origin in (origins[:1] if same else origins)])
         which = np.zeros(len(starts), np.int64) if same else np.arange(len(starts))
-        rest = (np.array(column) for column in list(zip(*origins, strict=True))[1:])
-        return batch.Sweep(encoders, which, *rest, t, counts, offsets)
+        columns = (np.array(column) for column in list(zip(*origins, strict=True))[1:])
+        b, anchor, initial, terminal, velocity, pace = columns
+        return batch.Sweep(encoders, which, b, anchor, initial, terminal, velocity, pace, t, counts, offsets)
 
     def _work(self, dtype: type) -> tuple[batch.Work, batch.Lanes]:
         """Memory and networks for a sweep in this precision, made at the first."""
         if dtype not in self._works:
             own, lanes = self._tables[2], batch.LANES
             n, widest = len(own.rates.signs_out), max(int(own.rates.widths.max()), len(own.rates.signs_out))
-            rates, decoder, modes = cast(own.rates, dtype), cast(own.decoder, dtype), own.modes.astype(dtype)
-            arrays = (
+            rates, decoder = cast(own.rates, dtype), cast(own.decoder, dtype)
+            modes: Array = own.modes.astype(dtype)
+            latent, raw, layers = (
                 np.empty(shape, dtype) for shape in ((lanes, self.latent_dim), (lanes, n), (2, 2 * lanes * widest))
             )
-            work = batch.Work(rates, decoder, modes, *arrays, self._scratch(2, dtype))
+            work = batch.Work(rates, decoder, modes, latent, raw, layers, self._scratch(2, dtype))
             self._works[dtype] = work, batch.lanes_for(work, lanes)
         return self._works[dtype]
 
     def _scratch(self, dim: int, dtype: type) -> Any:
         own = self._tables[dim]
-        return scratch(cast(own.decoder, dtype), *own.modes.shape, len(own.rates.signs_out))
+        rank, width = own.modes.shape
+        return scratch(cast(own.decoder, dtype), rank, width, len(own.rates.signs_out))
 
     def _require_counts(self, starts: Sequence[Start], interval: float, counts: Sequence[int]) -> None:
         for start in starts:

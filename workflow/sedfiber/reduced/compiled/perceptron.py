@@ -12,14 +12,16 @@ the ½ are folded into the weights of the first and last layer.
 matrices a layer; in float32 it takes half the time.
 """
 
+from collections.abc import Callable
+
 import numpy as np
 from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic, overload
+from numba.extending import overload
 from numpy.polynomial import Chebyshev, Polynomial
 
 from sedfiber.core.array_types import Array
-from sedfiber.core.kernel_cache import kept
+from sedfiber.core.kernel_cache import inlined, kept
 from sedfiber.reduced.compiled.network import Network
 from sedfiber.reduced.compiled.vector_layer import layer
 
@@ -29,7 +31,7 @@ FAST = {"reassoc", "contract", "nsz", "arcp"}
 _EXACT = {"contract", "nsz", "arcp"}
 
 
-@intrinsic
+@inlined
 def _power_of_two(_typing, y):
     """2^k of y = k + 1.5·2^52 (float64) or k + 1.5·2^23 (float32), whose last bits are the integer k.
 
@@ -50,7 +52,7 @@ def _exp2_coefficients(degree: int) -> Array:
     return Chebyshev.interpolate(np.exp2, degree, [-0.5, 0.5]).convert(kind=Polynomial).coef
 
 
-def _tanh_kernel(real, degree: int, magic: float):
+def _tanh_kernel(real: type, degree: int, magic: float) -> Callable[[Array], None]:
     """tanh x = 1 − 2/(1 + e^2x), e^2x = 2^k 2^f with k the integer nearest to 2x/ln 2."""
     c0, c1, c2, c3, c4, c5, c6, c7, c8 = (real(c) for c in np.pad(_exp2_coefficients(degree), (0, 8 - degree)))
     rate, top, shift, one, two = (real(c) for c in (2.0 / np.log(2.0), 60.0, magic, 1.0, 2.0))

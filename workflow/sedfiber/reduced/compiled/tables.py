@@ -72,14 +72,14 @@ def _network(tensors: Tensors, name: str, scale_in: Array, scale_out: Array) -> 
     signs_in, signs_out = (_exact(tensors[f"{name}.{signs}"]) for signs in ("signs_in", "signs_out"))
     n_in = len(signs_in)
     enter, bias = _filled(first[0], 0), _filled(first[1], 0)
-    flat = [part.ravel() for w, b in inner for part in (_filled(_filled(w, 0), 1).T, _filled(b, 0))]
+    parts = [part.ravel() for w, b in inner for part in (_filled(_filled(w, 0), 1).T, _filled(b, 0))]
     widths = np.array([len(bias), *(len(_filled(b, 0)) for _, b in inner)])
     leave = 0.5 * scale_out[:, None] * _filled(last[0], 1)
     of_x = enter[:, :n_in] / scale_in
     context = np.zeros((len(enter), 1 + n_in))
     if enter.shape[1] > n_in:
         context[:, 0], context[:, 1:] = enter[:, n_in], of_x * (signs_in > 0)
-    flat = np.concatenate([np.zeros(0), *flat])
+    flat = np.concatenate([np.zeros(0), *parts])
     return Network(np.ascontiguousarray(of_x.T), flat, widths, leave, signs_in, signs_out), bias, context
 
 

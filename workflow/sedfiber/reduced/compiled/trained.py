@@ -58,7 +58,8 @@ class TrainedModel(ABC):
         B, anchor = start.nearest or (start.B, start.terminal)
         b = float(self.scales.log_B(B))
         places = (anchor, start.initial, start.terminal, start.terminal_velocity)
-        return Origin(self._encoder.at(b), b, *(np.ascontiguousarray(x, np.float64) for x in places), start.pace)
+        anchor, initial, terminal, velocity = (np.ascontiguousarray(x, np.float64) for x in places)
+        return Origin(self._encoder.at(b), b, anchor, initial, terminal, velocity, start.pace)
 
     def _require_shapes(self, start: Start) -> None:
         n_beads = self.scales.n_beads

@@ -9,10 +9,9 @@ for the best plain loops, which LLVM vectorises along the inputs.
 
 from llvmlite import ir
 from numba import types
-from numba.extending import intrinsic
 
 from sedfiber.core.array_types import Array
-from sedfiber.core.kernel_cache import kept
+from sedfiber.core.kernel_cache import inlined, kept
 from sedfiber.reduced.compiled.network import BLOCK
 
 _LANES = 4
@@ -32,15 +31,17 @@ def layer(weights: Array, at: int, bias: Array, bias_at: int, n: int, m: int, he
         _block(weights, at + column, bias, bias_at + column, n, m, here, there, column)
 
 
-@intrinsic
+@inlined
 def _block(_typing, weights, at, bias, bias_at, n, m, here, there, column):
     """BLOCK columns of the weights, which begin at ``weights[at]`` and go on every m."""
 
     def generate(context, builder, signature, arguments):
-        data = [context.make_array(signature.args[k])(context, builder, arguments[k]).data for k in (0, 2, 6)]
+        weight_data, bias_data, values = (
+            context.make_array(signature.args[k])(context, builder, arguments[k]).data for k in (0, 2, 6)
+        )
         target = context.make_array(signature.args[7])(context, builder, arguments[7]).data
         _, at, _, bias_at, n, m, _, _, column = arguments
-        sums = _loop(builder, *data, at, bias_at, n, m)
+        sums = _loop(builder, weight_data, bias_data, values, at, bias_at, n, m)
         half = len(sums) // 2
         for first, vectors in ((column, sums[:half]), (builder.add(column, m), sums[half:])):
             for k, vector in enumerate(vectors):

@@ -36,7 +36,8 @@ class LatentPath:
         self._y, self._k = start, np.empty((STAGES, start.size))
         self._k[0] = rates(start)
         self._step, self._before = _first_step(rates, start, self._k[0], rtol, atol), 1.0
-        self._mesh, self._coefficients = [0.0], []
+        self._mesh = [0.0]
+        self._coefficients: list[Array] = []
 
     def __call__(self, t: Times) -> Array:
         """States (T, n) at ascending times (T,). Raises NotFinite or Stuck."""

@@ -62,8 +62,10 @@ class Section:
         return self._state(found), abs(again.B / found.B - 1.0)
 
     def _fold_accuracy(self, fold: CurvePoint) -> float:
-        beside = [self.curve.ahead(fold, side) for side in (-_ASIDE, _ASIDE)]
-        return float("nan") if None in beside else abs(self.curve.fold(*beside).B / fold.B - 1.0)
+        before, after = (self.curve.ahead(fold, side) for side in (-_ASIDE, _ASIDE))
+        if before is None or after is None:
+            return float("nan")
+        return abs(self.curve.fold(before, after).B / fold.B - 1.0)
 
     def _state(self, point: CurvePoint) -> SteadyState:
         return state_of(point, self.scene, self.name)

@@ -28,9 +28,9 @@ def measured_rate(scene: Scene, positions: Positions, mode: Mode, fastest: float
     """
     system = assemble(replace(scene, space="volume"))
     duration = min(FOLDS / max(abs(mode.rate.real), 1e-12), _LONGEST, _MOST_OF_OTHERS / max(fastest, 1e-12))
-    march = INTEGRATORS[_METHOD](system, Tolerances(_TOLERANCE, _TOLERANCE))
+    integrator = INTEGRATORS[_METHOD](system, Tolerances(_TOLERANCE, _TOLERANCE))
     start = system.to_state(positions + DISTURBANCE * mode.right.real)
-    states = march.states(start, duration / _SAMPLES)
+    states = integrator.states(start, duration / _SAMPLES)
     history = np.array([next(states) for _ in range(_SAMPLES + 1)])
     moved = system.to_shapes(history) - (positions - positions[system.centre])
     # a pair of complex modes: the displacement along the real part is half of each

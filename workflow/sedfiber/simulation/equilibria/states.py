@@ -7,6 +7,7 @@ integrating the equations of motion from a small disturbance along its mode.
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 
 from sedfiber.simulation.equilibria.branches import Branch, spectrum_of
@@ -103,7 +104,7 @@ def _rate_changes(branch: Branch) -> Iterator[dict]:
         rates = [_rate(branch, *pair, pick) for pair in zip(branch.states, spectra, strict=True)]
         for k, (low, high) in enumerate(pairwise(rates)):
             if low * high < 0.0:
-                found = branch.root(k, lambda state, pick=pick: pick(spectrum_of(branch, state)).rate.real)
+                found = branch.root(k, partial(_growth, branch, pick))
                 yield _threshold_row(branch, words, *found, pick)
 
 
@@ -112,11 +113,19 @@ def _watched(branch: Branch, spectra: Sequence[Spectrum]) -> Iterator[tuple[str,
     if branch.name == "vertical":
         growing = max(sum(mode.rate.real > 0.0 for mode in modes.out_of_plane) for modes in spectra)
         for k in range(growing):
-            yield "number of unstable modes changes", lambda modes, k=k: modes.out_of_plane[k]
+            yield "number of unstable modes changes", _out_of_plane(k)
         return
     yield "in-plane rate changes sign", lambda modes: modes.in_plane[0]
     yield "in-plane symmetric rate changes sign", _symmetric
-    yield "out-of-plane rate changes sign", lambda modes: modes.out_of_plane[0]
+    yield "out-of-plane rate changes sign", _out_of_plane(0)
+
+
+def _out_of_plane(k: int) -> Pick:
+    return lambda modes: modes.out_of_plane[k]
+
+
+def _growth(branch: Branch, pick: Pick, state: SteadyState) -> float:
+    return pick(spectrum_of(branch, state)).rate.real
 
 
 def _rate(branch: Branch, state: SteadyState, modes: Spectrum, pick: Pick) -> float:
@@ -132,8 +141,7 @@ def _threshold_row(branch: Branch, words: str, state: SteadyState, accuracy: flo
 
 def _measured_at(branch: Branch, B: float, pick: Pick | None) -> float:
     """Rate of the picked mode by time integration; NaN without a state or a mode to watch."""
-    state = branch.state(B) if pick is not None else None
-    if state is None:
+    if pick is None or (state := branch.state(B)) is None:
         return float("nan")
     modes = spectrum_of(branch, state)
     return _measured(branch, state, modes, pick(modes))

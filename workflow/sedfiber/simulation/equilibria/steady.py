@@ -12,7 +12,7 @@ import numpy as np
 from sedfiber.core.array_types import Array, Positions
 from sedfiber.core.errors import InputError, NumericalError
 from sedfiber.core.validation import one_of
-from sedfiber.physics.integrators import LSODAMarch, Tolerances
+from sedfiber.physics.integrators import LSODA, Tolerances
 from sedfiber.physics.mirror import MirrorSymmetric
 from sedfiber.scene.assembly import assemble
 from sedfiber.scene.scene import Scene
@@ -105,6 +105,7 @@ def straight_point(scene: Scene, curve: SteadyCurve) -> CurvePoint:
     B = min(scene.B, NEARLY_STRAIGHT)
     point = curve.nearest(B, planar(scene).start())
     if point is None:
+        assert scene.stretching is not None  # or it would have no terminal shape
         raise NumericalError(
             f"no terminal shape found for B={scene.B:g}, {scene.n_beads} beads and "
             f"stretching.factor {scene.stretching.factor:g}: no nearly straight one at B={B:g} to follow from"
@@ -134,9 +135,9 @@ def _symmetric_fall(scene: Scene) -> Positions | None:
     """Where an exactly symmetric fiber comes to rest, (N, 2); None when it does not, or only with beads collapsed."""
     system = MirrorSymmetric(assemble(scene))
     interval = 20.0
-    march = LSODAMarch(system, Tolerances(1e-8, 1e-8))
+    integrator = LSODA(system, Tolerances(1e-8, 1e-8))
     try:
-        for k, y in enumerate(march.states(system.to_state(scene.start()), interval)):
+        for k, y in enumerate(integrator.states(system.to_state(scene.start()), interval)):
             if k and np.abs(system.relative_velocities(y)).max() < _ROUGHLY_STEADY:
                 return None if system.loss_of_definiteness(y) else system.to_shapes(y)[:, :2]
             if k * interval > _LONGEST_FALL * scene.n_beads:

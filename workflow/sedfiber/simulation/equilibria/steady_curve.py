@@ -48,7 +48,7 @@ class CurvePoint:
     @property
     def positions(self) -> Positions:
         """Bead positions relative to the centre bead, (N, 2)."""
-        return whole(np.append([0.0, 0.0], self.unknowns[:-1]).reshape(-1, 2))
+        return _positions(self.unknowns[:-1])
 
 
 class SteadyCurve:
@@ -154,10 +154,11 @@ class SteadyCurve:
     def _linearise(self, unknowns: Array) -> tuple[Array, Matrix]:
         """``r`` (K,) and its derivatives by ``h`` and ``λ``, (K, K + 1)."""
         B = float(np.exp(unknowns[-1]))
-        residual, matrix = self._balance(self._system(B), unknowns[:-1], derivatives=True)
+        system, right = self._system(B), unknowns[:-1]
+        residual = self._balance(system, right)
         # r is a constant plus a multiple of 1/ℬ, so its derivative by λ is twice what doubling ℬ changes
-        doubled, _ = self._balance(self._system(2.0 * B), unknowns[:-1])
-        return residual, np.column_stack([matrix, 2.0 * (doubled - residual)])
+        doubled = self._balance(self._system(2.0 * B), right)
+        return residual, np.column_stack([self._derivatives(system, right), 2.0 * (doubled - residual)])
 
     def _solve(self, B: float, right: Array) -> Array | None:
         """Newton at one ℬ to round-off; None when it does not get there.
@@ -166,13 +167,14 @@ class SteadyCurve:
         a negligible part of the deflection (for a very stiff fiber round-off hides the balance).
         Of a few such iterates the one with the smallest residual is taken.
         """
-        system, noise, converged = self._system(B), self._noise(np.append(right, np.log(B))), []
+        system, noise = self._system(B), self._noise(np.append(right, np.log(B)))
+        converged: list[tuple[float, Array]] = []
         for _ in range(_MAX_NEWTON):
-            residual, matrix = self._balance(system, right, derivatives=True)
+            residual = self._balance(system, right)
             size = float(np.abs(residual).max())
             if not np.isfinite(size):
                 return None
-            step = np.linalg.solve(matrix, residual)
+            step = np.linalg.solve(self._derivatives(system, right), residual)
             height = max(right[1::2].max(), 0.0) - min(right[1::2].min(), 0.0)
             if size < TOLERANCE + noise and np.abs(step).max() < _LAST_CORRECTION * height:
                 converged.append((size, right))
@@ -181,18 +183,18 @@ class SteadyCurve:
             right = right - step
         return min(converged, key=lambda pair: pair[0])[1] if converged else None
 
-    def _balance(self, system: System, right: Array, derivatives: bool = False) -> tuple[Array, Matrix | None]:
-        """``r`` and, on request, ``∂r/∂h``; moving a bead moves its image."""
+    def _balance(self, system: System, right: Array) -> Array:
+        """``r`` (K,)."""
+        u, c = system.velocity(_positions(right)), system.centre
+        return (u[c + 1 :] - u[c]).ravel()
+
+    def _derivatives(self, system: System, right: Array) -> Matrix:
+        """``∂r/∂h`` (K, K); moving a bead moves its image."""
         n, c = system.shape[0], system.centre
-        x = whole(np.append([0.0, 0.0], right).reshape(-1, 2))
-        u = system.velocity(x)
-        residual = (u[c + 1 :] - u[c]).ravel()
-        if not derivatives:
-            return residual, None
-        jac = system.velocity_jacobian(x).reshape(n, 2, n, 2)
+        jac = system.velocity_jacobian(_positions(right)).reshape(n, 2, n, 2)
         relative = jac[c + 1 :] - jac[c]
         images = relative[:, :, c - 1 :: -1] * np.array([-1.0, 1.0]) if c else relative[:, :, :0]
-        return residual, (relative[:, :, c + 1 :] + images).reshape(self._size, self._size)
+        return (relative[:, :, c + 1 :] + images).reshape(self._size, self._size)
 
     def _system(self, B: float) -> System:
         return assemble(replace(self._scene, B=B))
@@ -201,3 +203,8 @@ class SteadyCurve:
         """Round-off of the balance: coordinates of size N carry eps·N, times the stiffest modulus."""
         stiffest = self._scene.stiffening * self._scene.modulus_at(np.exp(unknowns[-1]))
         return float(np.finfo(float).eps * self._scene.n_beads * stiffest)
+
+
+def _positions(right: Array) -> Positions:
+    """All beads (N, 2) relative to the centre bead, from those after it, (K,)."""
+    return whole(np.append([0.0, 0.0], right).reshape(-1, 2))

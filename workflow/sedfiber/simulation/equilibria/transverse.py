@@ -10,18 +10,18 @@ from dataclasses import replace
 
 import numpy as np
 
-from sedfiber.core.array_types import Array, Matrix, Positions, State
+from sedfiber.core.array_types import Array, History, Matrix, Positions
 from sedfiber.physics.system import System
 from sedfiber.scene.assembly import assemble
 from sedfiber.scene.scene import Scene
 
 
-def transverse_rates(scene: Scene, system: System, states: State) -> Array:
-    """Leading out-of-plane rate (T,) in U_s/a at each planar state (T, beads 2 + 1) of ``system``."""
+def transverse_rates(scene: Scene, shapes: History, positions: History) -> Array:
+    """Leading out-of-plane rate (T,) in U_s/a at each sample of a planar run, given both ways (T, beads, 3)."""
     spatial = assemble(replace(scene, space="volume"))
-    where = system.to_positions if spatial.placed else system.to_shapes
+    places = positions if spatial.placed else shapes
     turns = scene.flow is None and (scene.gravity is None or scene.gravity.direction[0] == 0.0)
-    return np.array([leading_rate(transverse_matrix(spatial, where(y)), where(y) if turns else None) for y in states])
+    return np.array([leading_rate(transverse_matrix(spatial, x), x if turns else None) for x in places])
 
 
 def transverse_matrix(spatial: System, x: Positions) -> Matrix:

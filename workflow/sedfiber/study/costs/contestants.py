@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from sedfiber.core.array_types import History
-from sedfiber.physics.integrators import LSODAMarch, Tolerances
+from sedfiber.physics.integrators import LSODA, Tolerances
 from sedfiber.reduced.compiled.model import load_compiled
 from sedfiber.reduced.dataset import Dataset
 from sedfiber.reduced.forecaster import Forecaster
@@ -101,9 +101,9 @@ def _galerkin(residuals: np.ndarray, r: int) -> Contestant:
     def run(query: Query) -> Answer:
         fall = query.fall
         projected = PodGalerkin(assemble(fall.scene), basis, query.trajectory.terminal)
-        march = LSODAMarch(projected, Tolerances(GALERKIN_TOLERANCE, GALERKIN_TOLERANCE))
+        integrator = LSODA(projected, Tolerances(GALERKIN_TOLERANCE, GALERKIN_TOLERANCE))
         start = projected.to_state(fall.start_positions[:, :2])
-        states = np.array(list(islice(march.states(start, fall.interval), fall.samples)))
+        states = np.array(list(islice(integrator.states(start, fall.interval), fall.samples)))
         return projected.to_positions(states), {"rhs": projected.rhs_count, "jacobians": projected.jacobian_count}
 
     return Contestant(Choice(GALERKIN, f"{r} modes", r, GALERKIN_TOLERANCE), lambda query: partial(run, query))

@@ -8,7 +8,7 @@ from functools import cached_property, partial
 import numpy as np
 
 from sedfiber.core.array_types import History, Positions, State, Times
-from sedfiber.physics.integrators import Counters, March
+from sedfiber.physics.integrators import Counters, Integrator
 from sedfiber.physics.system import System
 from sedfiber.scene.assembly import assemble
 from sedfiber.scene.numerics import Numerics
@@ -71,18 +71,18 @@ class Fall:
         """A call of one right-hand side, at the start: the unit of cost."""
         return partial(self.system.rhs, 0.0, self.start)
 
-    def by_march(self, march: March, seconds: float = np.inf) -> Integrated:
-        """All samples of a march; raises OutOfTime, looking at the clock after each."""
+    def by_integrator(self, integrator: Integrator, seconds: float = np.inf) -> Integrated:
+        """All samples; raises OutOfTime, looking at the clock after each."""
         deadline = time.perf_counter() + seconds
         states = []
-        for y in march.states(self.start, self.interval):
+        for y in integrator.states(self.start, self.interval):
             states.append(y)
             if len(states) == self.samples:
                 break
             if time.perf_counter() > deadline:
                 raise OutOfTime((len(states) - 1) * self.interval)
-        return Integrated(self.system.to_positions(np.array(states)), march.counters)
+        return Integrated(self.system.to_positions(np.array(states)), integrator.counters)
 
     def by_numerics(self, numerics: Numerics) -> Integrated:
-        """The march of ``numerics`` on a system of its own."""
-        return self.by_march(numerics.march(assemble(self.scene), self.scene))
+        """The integrator of ``numerics`` on a system of its own."""
+        return self.by_integrator(numerics.integrator_for(assemble(self.scene), self.scene))

@@ -14,7 +14,7 @@ from sedfiber.reduced.pod import ModalBasis
 
 
 class PodGalerkin:
-    """The projected equations of ``system`` about the terminal shape (N, 3); offers a march all that a System does.
+    """The projected equations of ``system`` about the terminal shape (N, 3); an integrator takes it for a System.
 
     A state is [z, c], (r + 2,).
     """

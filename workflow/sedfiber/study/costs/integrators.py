@@ -18,7 +18,7 @@ from sedfiber.simulation.run import simulate
 from sedfiber.study.angles import angle_of
 from sedfiber.study.costs.falls import COUNTED, Fall, Integrated, OutOfTime
 from sedfiber.study.costs.machine import machine_columns
-from sedfiber.study.costs.methods import ANALYTIC, METHODS, Method, by_march
+from sedfiber.study.costs.methods import ANALYTIC, METHODS, Method, by_ours
 from sedfiber.study.costs.timing import timed_run
 
 TOLERANCES = tuple(10.0**-k for k in range(2, 11))  # rtol, and atol in a
@@ -67,7 +67,7 @@ class _References:
 
     @classmethod
     def of(cls, fall: Fall) -> "_References":
-        runs = {name: by_march(name, ANALYTIC, fall, REFERENCE, float("inf")) for name in ("Radau", "LSODA", "BDF")}
+        runs = {name: by_ours(name, ANALYTIC, fall, REFERENCE, float("inf")) for name in ("Radau", "LSODA", "BDF")}
         radau, *others = (run.positions for run in runs.values())
         apart = [largest_distance(radau, other, fall.scene.length) for other in others]
         return cls(radau, others[apart.index(min(apart))], min(apart))

@@ -1,4 +1,4 @@
-"""The ways to integrate a fall that are compared: our marches, SciPy's solvers, and the source's set-up."""
+"""The ways to integrate a fall that are compared: our integrators, SciPy's solvers, and the source's set-up."""
 
 import time
 from collections.abc import Callable
@@ -62,15 +62,15 @@ class WithoutJacobian:
         return self._system.loss_of_definiteness(y)
 
 
-def by_march(name: str, jacobian: str, fall: Fall, tolerance: float, seconds: float) -> Integrated:
-    """One of the package's own marches."""
+def by_ours(name: str, jacobian: str, fall: Fall, tolerance: float, seconds: float) -> Integrated:
+    """One of the package's own integrators."""
     system = assemble(fall.scene)
     equations = system if jacobian == ANALYTIC else WithoutJacobian(system)
-    return fall.by_march(INTEGRATORS[name](equations, Tolerances(tolerance, tolerance)), seconds)
+    return fall.by_integrator(INTEGRATORS[name](equations, Tolerances(tolerance, tolerance)), seconds)
 
 
 def by_solve_ivp(solver: type[OdeSolver], jacobian: str, fall: Fall, tolerance: float, seconds: float) -> Integrated:
-    """``scipy.integrate.solve_ivp``; implicit solvers begin with the same short step as our marches."""
+    """``scipy.integrate.solve_ivp``; implicit solvers begin with the same short step as ours."""
     system, counters = assemble(fall.scene), Counters()
     options = {}
     if jacobian != NONE:
@@ -113,8 +113,8 @@ def _watched(solver: type[OdeSolver], counters: Counters, seconds: float) -> typ
     return Watched
 
 
-def _march(name: str, jacobian: str, every: int = 1) -> Method:
-    return Method(name, jacobian, partial(by_march, name, jacobian), every)
+def _own(name: str, jacobian: str, every: int = 1) -> Method:
+    return Method(name, jacobian, partial(by_ours, name, jacobian), every)
 
 
 def _solve_ivp(solver: type[OdeSolver], jacobian: str, every: int = 1, name: str = "") -> Method:
@@ -122,13 +122,13 @@ def _solve_ivp(solver: type[OdeSolver], jacobian: str, every: int = 1, name: str
 
 
 METHODS = (
-    _march("LSODA", ANALYTIC),
-    _march("LSODA", DIFFERENCES, SOME),
+    _own("LSODA", ANALYTIC),
+    _own("LSODA", DIFFERENCES, SOME),
     _solve_ivp(LSODA, ANALYTIC, SOME, "LSODA (solve_ivp)"),
     _solve_ivp(LSODA, DIFFERENCES, FEW, "LSODA (solve_ivp)"),
-    _march("BDF", ANALYTIC),
+    _own("BDF", ANALYTIC),
     _solve_ivp(BDF, DIFFERENCES, FEW),
-    _march("Radau", ANALYTIC, SOME),
+    _own("Radau", ANALYTIC, SOME),
     _solve_ivp(Radau, DIFFERENCES, FEW),
     _solve_ivp(DOP853, NONE, FEW),
     _solve_ivp(RK45, NONE, FEW),

@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 
 from sedfiber.core.array_types import History
-from sedfiber.physics.integrators import RadauMarch, Tolerances
+from sedfiber.physics.integrators import Radau, Tolerances
 from sedfiber.scene.assembly import assemble
 from sedfiber.scene.numerics import Numerics
 from sedfiber.scene.scene import Scene
@@ -51,7 +51,7 @@ def _whole_fiber(B: float, samples: int) -> History:
     """The same fall with all beads as unknowns, which round-off makes asymmetric in time; shapes (T, N, 3)."""
     scene = Scene(B, 0.0, tilt=0.0)
     system = assemble(scene)
-    states = RadauMarch(system, Tolerances(1e-11, 1e-11)).states(system.to_state(scene.start()), 0.5)
+    states = Radau(system, Tolerances(1e-11, 1e-11)).states(system.to_state(scene.start()), 0.5)
     return system.to_shapes(np.array([next(states) for _ in range(samples)]))
 
 
