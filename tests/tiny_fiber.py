@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from sedfiber.reduced.dataset import Trajectory
+from sedfiber.reduced.dataset import SettlingFall
+from sedfiber.simulation.trajectory import fall_keys
 
 N_BEADS = 5
 TRAINED = (100.0, 300.0, 1000.0)
@@ -30,4 +31,5 @@ def settling(B, angle_index, split="train", duration=12.0):
     terminal = bent_fiber(np.zeros(1), np.array([final_bend]))[0]
     velocity = np.array([0.0, -2.0, 0.0])
     positions = shapes + centre[:, None]
-    return Trajectory(B, angle_index, theta0, split, t, positions, terminal, velocity)
+    keys = fall_keys(split, B, angle_index, theta0)
+    return SettlingFall(t, positions, keys, terminal=terminal, terminal_velocity=velocity)

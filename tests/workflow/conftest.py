@@ -4,7 +4,6 @@ import re
 import shutil
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -99,7 +98,7 @@ def falls():
     """Two falls of the training set, one of test set B."""
     from sedfiber.study.hard_cases.training_cases import simulated  # torch: most tests of this folder do without
 
-    return [*simulated(7, (200.0,), (0, 10)), *(replace(fall, split="B") for fall in simulated(7, (300.0,), (7,)))]
+    return [*simulated(7, (200.0,), (0, 10)), *(fall.with_facts(split="B") for fall in simulated(7, (300.0,), (7,)))]
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,7 @@ def test_the_same_input_gives_the_same_bytes(explorer, trained_model, dataset, t
 
 def test_a_fall_outside_the_models_range_is_left_out_and_counted(falls, trained_model, tmp_path):
     """A test set may go beyond the training; the page cannot."""
-    write_dataset([*falls, replace(falls[0], B=1000.0)], tmp_path / "falls.parquet")
+    write_dataset([*falls, falls[0].with_facts(B=1000.0)], tmp_path / "falls.parquet")
     make(trained_model, tmp_path / "falls.parquet", output=tmp_path / "explorer.html")
     text = (tmp_path / "explorer.html").read_text(encoding="utf-8")
     assert "Simulated falls: training 2, test set B 1; 1 outside that range are not shown." in " ".join(text.split())
@@ -40,8 +40,8 @@ def broken(case: str, model, falls, folder) -> tuple:
         return model, folder / "missing.parquet"
     changes = {
         "other beads": {"positions": falls[0].positions[:, 1:-1]},
-        "outside the range": {"B": 1000.0},
-        "unknown split": {"split": "C"},
+        "outside the range": {"metadata": falls[0].metadata | {"B": 1000.0}},
+        "unknown split": {"metadata": falls[0].metadata | {"split": "C"}},
         "not finite": {"positions": falls[0].positions * np.nan},
         "out of the plane": {"positions": falls[0].positions + np.array([0.0, 0.0, 1.0])},
     }

@@ -8,12 +8,13 @@ from PIL import Image
 
 from sedfiber import Scene, simulate, write_trajectory
 from sedfiber.commands.cli import main
-from sedfiber.figures.falls import Fall
+from sedfiber.figures.falls import plane_shapes
 from sedfiber.figures.films.film import FRAMES, frame_samples
 from sedfiber.figures.films.forecast import film_forecast
 from sedfiber.figures.films.scene import film_scene
 from sedfiber.reduced.dataset_file import write_dataset
 from sedfiber.scene.numerics import Numerics
+from sedfiber.simulation.trajectory import Trajectory, fall_keys
 
 N_BEADS = 7
 T = np.arange(0.0, 50.5, 0.5)
@@ -32,7 +33,7 @@ def fall(aside=0.0):
     positions = np.zeros((len(T), N_BEADS, 3))
     positions[..., 0] = 2.0 * (np.arange(N_BEADS) - N_BEADS // 2) + aside
     positions[..., 1] = -2.0 * T[:, None]
-    return Fall("A", 1000.0, 3, 0.0, T, positions)
+    return Trajectory(T, positions, fall_keys("A", 1000.0, 3, 0.0))
 
 
 @pytest.fixture
@@ -119,7 +120,7 @@ def test_the_close_up_is_to_scale():
 
 
 def test_samples_are_of_the_whole_run_and_none_is_shown_twice():
-    samples = frame_samples(T, fall().shapes)
+    samples = frame_samples(T, plane_shapes(fall()))
     assert samples[0] == 0 and samples[-1] == len(T) - 1
     assert (np.diff(samples) > 0).all() and len(samples) <= FRAMES
 

@@ -11,12 +11,12 @@ from sedfiber.commands.cli import main
 from sedfiber.core.errors import InputError
 from sedfiber.figures.best_and_worst import best_and_worst, pair_up, pairs_of
 from sedfiber.figures.contact_sheet import draw_contact_sheet
-from sedfiber.figures.falls import Fall
 from sedfiber.figures.forecast_paths import draw_forecast_paths
 from sedfiber.figures.forecast_shapes import SNAPSHOTS, draw_forecast_shapes
 from sedfiber.figures.lags import draw_lags
 from sedfiber.figures.style import BLACK, VERMILION
 from sedfiber.reduced.dataset_file import write_dataset
+from sedfiber.simulation.trajectory import Trajectory, fall_keys
 
 N_BEADS = 7
 T = np.arange(0.0, 20.5, 0.5)
@@ -36,7 +36,8 @@ def fall(split, B, angle_index, lag=0.0):
     along = 2.0 * (np.arange(N_BEADS) - N_BEADS // 2)
     positions = np.stack([np.cos(angle)[:, None] * along, np.sin(angle)[:, None] * along], axis=-1)
     positions += np.stack([-theta0 * T, -4.0 * T], axis=-1)[:, None]
-    return Fall(split, B, angle_index, theta0, T, np.pad(positions, ((0, 0), (0, 0), (0, 1))))
+    spatial = np.pad(positions, ((0, 0), (0, 0), (0, 1)))
+    return Trajectory(T, spatial, fall_keys(split, B, angle_index, theta0))
 
 
 def truths():

@@ -13,11 +13,12 @@ from sedfiber.commands.cli import main
 from sedfiber.core.errors import InputError
 from sedfiber.figures.centre_paths import draw_centre_paths
 from sedfiber.figures.data_sets import SETS, draw_data_sets
-from sedfiber.figures.falls import falls_where, read_falls, snapshots
+from sedfiber.figures.falls import falls_where, plane_path, plane_shapes, settled_at, snapshots
 from sedfiber.figures.problem import LAST, draw_problem
 from sedfiber.figures.shapes_by_angle import draw_shapes_by_angle
 from sedfiber.figures.shapes_by_flexibility import SNAPSHOTS, draw_shapes_by_flexibility
 from sedfiber.figures.style import VERMILION
+from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.scene.numerics import Numerics
 
 B_VALUES, ANGLES, N = (100, 1000), (0, 12), 7
@@ -165,13 +166,14 @@ def test_every_angle_has_its_panel_in_order(falls):
         assert axes.get_aspect() == 1.0
         lines = [line.get_xydata() for line in axes.lines]
         assert all(np.allclose(line[N // 2], 0.0) for line in lines)
-        assert np.array_equal(lines[0], fall.shapes[0]) and np.array_equal(lines[-1], fall.shapes[-1])
-        assert f"T ≈ {fall.settled} " in axes.get_title()
+        assert np.array_equal(lines[0], plane_shapes(fall)[0])
+        assert np.array_equal(lines[-1], plane_shapes(fall)[-1])
+        assert f"T ≈ {settled_at(fall)} " in axes.get_title()
 
 
 def test_the_settling_time_is_rounded_from_the_last_sample(study, falls):
     times = pd.read_csv(study / "trajectories.csv")["settling_time"]
-    assert [fall.settled for fall in falls] == times.round().tolist()
+    assert [settled_at(fall) for fall in falls] == times.round().tolist()
 
 
 def test_paths_start_at_zero_side_by_side(falls):
@@ -182,7 +184,7 @@ def test_paths_start_at_zero_side_by_side(falls):
     above, below = ([line.get_xydata() for line in axes.lines if len(line.get_xdata()) > 1] for axes in (upper, lower))
     deepest = max(-(fall.centre[-1] - fall.centre[0])[1] for fall in chosen)
     for place, fall in enumerate(chosen):
-        moved = fall.centre - fall.centre[0]
+        moved = plane_path(fall) - plane_path(fall)[0]
         assert np.allclose(above[place], moved + np.array([place * deepest, 0.0]))
         assert np.allclose(below[place], np.stack([-moved[:, 1], moved[:, 0]], axis=1))
 
@@ -195,7 +197,7 @@ def test_rows_of_shapes_carry_the_regimes_of_the_table(study, falls):
     assert [text.get_text() for text in shapes.texts] == ["rotation", "snaking"]
     starts = [line.get_xydata() for line in shapes.lines if len(line.get_xdata()) == N][::SNAPSHOTS]
     for start, fall in zip(starts, chosen, strict=True):
-        assert np.allclose(start - start[N // 2], fall.shapes[0])
+        assert np.allclose(start - start[N // 2], plane_shapes(fall)[0])
     assert starts[0][:, 1].min() > starts[1][:, 1].max()
     turned = np.degrees(table.query("angle_index == 12")["turned_whole"])
     assert angles.lines[0].get_xdata() == pytest.approx(turned.to_numpy())

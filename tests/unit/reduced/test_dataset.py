@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from sedfiber.core.errors import InputError
-from sedfiber.reduced.dataset import Dataset, mirrored, read_dataset
+from sedfiber.reduced.dataset import mirrored, read_dataset
 from tiny_fiber import N_BEADS, NAMES, TRAINED, bent_fiber, settling
 
 
@@ -67,11 +67,6 @@ def test_missing_column_is_named(tmp_path, training):
     pd.read_parquet(samples).drop(columns="y2").to_parquet(samples)
     with pytest.raises(InputError, match="y2"):
         read_dataset(samples, steady)
-
-
-def test_empty_split_is_refused(training):
-    with pytest.raises(InputError, match="'B'"):
-        Dataset(training.trajectories).split("B")
 
 
 def test_mirror_turns_the_angle_round_and_is_its_own_inverse():

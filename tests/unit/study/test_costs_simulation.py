@@ -17,7 +17,7 @@ from sedfiber.simulation.differences import largest_distance
 from sedfiber.study.angles import angle_of
 from sedfiber.study.costs import discretisation, integrators
 from sedfiber.study.costs.discretisation import GROWTH_COLUMNS, cost_growth, curve_distance, measure_discretisation
-from sedfiber.study.costs.falls import Fall, OutOfTime
+from sedfiber.study.costs.fall_problem import FallProblem, OutOfTime
 from sedfiber.study.costs.integrators import measure_integrators
 from sedfiber.study.costs.machine import machine, unit
 from sedfiber.study.costs.methods import METHODS, by_solve_ivp
@@ -54,7 +54,7 @@ def one(table, method, jacobian, tolerance):
 
 def short_fall(n_beads=FEW_BEADS, samples=21):
     """The first ten a/U_s of the same fall."""
-    return Fall(Scene(SOFT, angle_of(ANGLE), n_beads), samples)
+    return FallProblem(Scene(SOFT, angle_of(ANGLE), n_beads), samples)
 
 
 # the source's set-up
@@ -84,7 +84,7 @@ def test_the_sources_forces_of_a_fiber_at_rest_are_its_weight():
 
 def test_the_sources_run_agrees_with_ours():
     """1e-6 L over a sample that takes several calls, which give up after 500 steps and are made again."""
-    fall = Fall(Scene(50.0, angle_of(ANGLE), 31), 2)
+    fall = FallProblem(Scene(50.0, angle_of(ANGLE), 31), 2)
     theirs = SourceSetup(fall.scene.modulus).run(fall.start_positions, fall.samples)
     assert theirs.positions.shape == (2, 31, 3)
     assert theirs.steps > 500

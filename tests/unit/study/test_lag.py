@@ -12,12 +12,12 @@ from sedfiber.core.parquet_file import coordinate_columns, write_table
 from sedfiber.reduced.dataset import Dataset
 from sedfiber.reduced.dataset_file import write_dataset
 from sedfiber.reduced.measures import forecast_error
-from sedfiber.study.error_tables import Forecaster
+from sedfiber.study.error_tables import ModelLabel
 from sedfiber.study.lag import MOVING, lag_rows, measure_lag
 from tiny_fiber import bent_fiber, settling
 
 T = np.arange(0.0, 12.05, 0.1)
-WHO = Forecaster("ours", "rollout", 4)
+WHO = ModelLabel("ours", "rollout", 4)
 
 
 def turning(t, bend=0.3):

@@ -53,8 +53,7 @@ def run(args: argparse.Namespace) -> None:
     require_parquet(args.output)
     with simulated_time() as progress:
         trajectory = simulate(scene, numerics, progress=progress)
-    labelled = replace(trajectory, metadata=trajectory.metadata | {"angle_index": index})
-    write_trajectory(labelled, args.output)
+    write_trajectory(trajectory.with_facts(angle_index=index), args.output)
     if trajectory.metadata["settled_to"] == "W":
         print("settled to the W, which is unstable to left-right asymmetry, and not to the terminal U")
     elif trajectory.settling_time is not None:

@@ -13,9 +13,10 @@ from sedfiber.core.array_types import Array
 from sedfiber.core.csv_file import read_csv
 from sedfiber.core.errors import InputError
 from sedfiber.figures.drawing import add_output_arguments, write_drawing
-from sedfiber.figures.falls import Fall, read_falls
 from sedfiber.figures.table_input import in_set, select_columns
+from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.reduced.measures import forecast_error
+from sedfiber.simulation.trajectory import Trajectory
 
 LINES = {"best": "-", "worst": (0, (4, 1.5))}  # as in the source
 _MOST_BEADS = 16
@@ -25,8 +26,8 @@ _MOST_BEADS = 16
 class Pair:
     """A true fall, its forecast at the same samples, and the largest E between the two."""
 
-    truth: Fall
-    forecast: Fall
+    truth: Trajectory
+    forecast: Trajectory
     E_max: float
 
     @property
@@ -50,7 +51,9 @@ def write_pair_figure(args: argparse.Namespace, draw: Callable[[list[Pair]], Fig
     write_drawing(args, lambda: draw(pairs))
 
 
-def pair_up(truths: Sequence[Fall], forecasts: Sequence[Fall], errors: pd.DataFrame, latent_dim: int) -> list[Pair]:
+def pair_up(
+    truths: Sequence[Trajectory], forecasts: Sequence[Trajectory], errors: pd.DataFrame, latent_dim: int
+) -> list[Pair]:
     """Every true fall with its forecast and E_max from the rows of ``errors`` for that latent dimension.
 
     ``errors`` has the columns latent_dim, test_set, B, angle_index and E_max.  Raises InputError when
@@ -83,7 +86,7 @@ def thinned(shapes: Array) -> Array:
     return shapes[:, np.linspace(0, n_beads - 1, min(n_beads, _MOST_BEADS)).round().astype(int)]
 
 
-def _read_all(paths: Sequence[Path]) -> list[Fall]:
+def _read_all(paths: Sequence[Path]) -> list[Trajectory]:
     return [fall for path in paths for fall in read_falls(path)]
 
 
@@ -96,8 +99,8 @@ def _rows_of(errors: pd.DataFrame, latent_dim: int) -> pd.DataFrame:
     return chosen
 
 
-def _pair(truth: Fall, forecasts: dict[tuple, Fall], rows: pd.DataFrame) -> Pair:
-    name = f"test set {truth.split}, B = {truth.B:g}, angle_index = {truth.angle_index}"
+def _pair(truth: Trajectory, forecasts: dict[tuple, Trajectory], rows: pd.DataFrame) -> Pair:
+    name = f"test set {truth.split}, {truth.name}"
     own = in_set(rows, truth.split)
     own = own[(own["B"] == truth.B) & (own["angle_index"] == truth.angle_index)]
     if own.empty or _key(truth) not in forecasts:
@@ -108,5 +111,5 @@ def _pair(truth: Fall, forecasts: dict[tuple, Fall], rows: pd.DataFrame) -> Pair
     return Pair(truth, forecast, float(own["E_max"].iloc[0]))
 
 
-def _key(fall: Fall) -> tuple:
+def _key(fall: Trajectory) -> tuple:
     return fall.split, fall.B, fall.angle_index

@@ -4,14 +4,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sedfiber.core.array_types import Array
-from sedfiber.figures.falls import Fall
+from sedfiber.figures.falls import plane_path
 from sedfiber.figures.style import B_SYMBOL, COLUMN_WIDTH, GREY, SEQUENTIAL, letter_panel, place_legend
+from sedfiber.simulation.trajectory import Trajectory
 
 MARKS = {"start": "v", "end": "x"}
 _ABOVE = {"textcoords": "offset points", "horizontalalignment": "right", "fontsize": 7.0}
 
 
-def draw_centre_paths(falls: list[Fall]) -> Figure:
+def draw_centre_paths(falls: list[Trajectory]) -> Figure:
     """Above: the paths side by side, axes equal. Below: drift against depth, the drift stretched."""
     figure = Figure(figsize=(COLUMN_WIDTH, 5.6))
     upper, lower = figure.subplots(2, 1, height_ratios=[3.2, 2.0])
@@ -23,9 +24,9 @@ def draw_centre_paths(falls: list[Fall]) -> Figure:
     return figure
 
 
-def _draw_side_by_side(axes: Axes, falls: list[Fall]) -> None:
+def _draw_side_by_side(axes: Axes, falls: list[Trajectory]) -> None:
     """Every path begins at y = 0, below its k; all together are as wide as the longest is deep."""
-    paths = [fall.centre - fall.centre[0] for fall in falls]
+    paths = [plane_path(fall) - plane_path(fall)[0] for fall in falls]
     spacing = -min(path[:, 1].min() for path in paths) / max(len(falls) - 1, 1)
     for place, (fall, color) in enumerate(_colored(falls)):
         path = paths[place] + [place * spacing, 0.0]
@@ -38,15 +39,15 @@ def _draw_side_by_side(axes: Axes, falls: list[Fall]) -> None:
     axes.set(aspect="equal", xlabel="x / a", ylabel="y / a")
 
 
-def _draw_drifts(axes: Axes, falls: list[Fall]) -> None:
+def _draw_drifts(axes: Axes, falls: list[Trajectory]) -> None:
     """x from the start, over the depth."""
     for fall, color in _colored(falls):
-        path = fall.centre - fall.centre[0]
+        path = plane_path(fall) - plane_path(fall)[0]
         _draw_path(axes, path[:, ::-1] * [-1.0, 1.0], color)
     axes.set(xlabel="depth (y(0) − y) / a", ylabel="drift (x − x(0)) / a")
 
 
-def _colored(falls: list[Fall]) -> list[tuple[Fall, tuple]]:
+def _colored(falls: list[Trajectory]) -> list[tuple[Trajectory, tuple]]:
     return [(fall, SEQUENTIAL(place / max(len(falls) - 1, 1))) for place, fall in enumerate(falls)]
 
 

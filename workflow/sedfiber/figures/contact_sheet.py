@@ -11,7 +11,7 @@ from matplotlib.patches import Rectangle
 
 from sedfiber.core.array_types import Array
 from sedfiber.figures.best_and_worst import Pair, thinned
-from sedfiber.figures.falls import snapshots
+from sedfiber.figures.falls import plane_shapes, snapshots
 from sedfiber.figures.style import B_SYMBOL, BLACK, PAGE_WIDTH, SEQUENTIAL, VERMILION, place_legend
 
 SNAPSHOTS = 4
@@ -53,10 +53,10 @@ def _draw_cell(axes: Axes, pair: Pair, place: Array, color: tuple) -> None:
     """Lengths in units of L, so that cells are alike for every fiber."""
     width, height = _FILLED * _CELL
     axes.add_patch(Rectangle(place, width, -height, facecolor=color, alpha=_TINT, linewidth=0.0))
-    samples = snapshots(pair.truth.t, pair.truth.shapes, SNAPSHOTS)
+    samples = snapshots(pair.truth.t, plane_shapes(pair.truth), SNAPSHOTS)
     places = place + _FIRST + np.arange(SNAPSHOTS)[:, None, None] * _STEP
     for fall, shade, width in ((pair.truth, BLACK, TRUE_LINE), (pair.forecast, VERMILION, FORECAST_LINE)):
-        shapes = thinned(fall.shapes[samples]) / fall.length + places
+        shapes = thinned(plane_shapes(fall)[samples]) / fall.length + places
         lines = np.concatenate([shapes, np.full_like(shapes[:, :1], np.nan)], axis=1)  # one path a cell: a small file
         axes.plot(*lines.reshape(-1, 2).T, color=shade, linewidth=width, solid_capstyle="round")
 

@@ -7,7 +7,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from sedfiber.core.validation import one_of, positive_number
-from sedfiber.figures.forecasters import Forecaster, forecasters
+from sedfiber.figures.model_legend import LegendEntry, legend_entries
 from sedfiber.figures.style import (
     B_SYMBOL,
     BLACK,
@@ -53,9 +53,9 @@ def draw_forecast_errors(table: pd.DataFrame, model: str) -> Figure:
     return figure
 
 
-def _compared(rows: pd.DataFrame, model: str) -> list[Forecaster]:
+def _compared(rows: pd.DataFrame, model: str) -> list[LegendEntry]:
     """The chosen model, in black, then the source's recipe and the lookup."""
-    known = {forecaster.model: forecaster for forecaster in forecasters(rows)}
+    known = {entry.model: entry for entry in legend_entries(rows)}
     chosen = known.pop(one_of("model", model, known))
     others = [other for other in known.values() if other.recipe != "rollout"]
     return [chosen._replace(color=BLACK), *others]
@@ -67,7 +67,7 @@ def _B_norm(rows: pd.DataFrame) -> LogNorm:
     return LogNorm(min(values, default=1.0), max(values, default=10.0))
 
 
-def _draw_totals(axes: Axes, rows: pd.DataFrame, shown: list[Forecaster], norm: LogNorm) -> None:
+def _draw_totals(axes: Axes, rows: pd.DataFrame, shown: list[LegendEntry], norm: LogNorm) -> None:
     """A thin line for each ℬ of the chosen model, a thick one for all, and the others' means."""
     chosen, *others = shown
     single = rows[(rows["model"] == chosen.model) & (rows["B"] != ALL)]
@@ -78,14 +78,14 @@ def _draw_totals(axes: Axes, rows: pd.DataFrame, shown: list[Forecaster], norm: 
         _draw_mean(axes, rows, other, "E", color=other.color, linewidth=1.3, label=f"{other.label}, all {B_SYMBOL}")
 
 
-def _draw_parts(axes: Axes, rows: pd.DataFrame, shown: list[Forecaster]) -> None:
-    for forecaster in shown:
+def _draw_parts(axes: Axes, rows: pd.DataFrame, shown: list[LegendEntry]) -> None:
+    for entry in shown:
         for part, (line, _) in PARTS.items():
-            _draw_mean(axes, rows, forecaster, part, color=forecaster.color, linestyle=line, linewidth=1.3)
+            _draw_mean(axes, rows, entry, part, color=entry.color, linestyle=line, linewidth=1.3)
 
 
-def _draw_mean(axes: Axes, rows: pd.DataFrame, forecaster: Forecaster, column: str, **look: object) -> None:
-    mean = rows[(rows["model"] == forecaster.model) & (rows["B"] == ALL)]
+def _draw_mean(axes: Axes, rows: pd.DataFrame, entry: LegendEntry, column: str, **look: object) -> None:
+    mean = rows[(rows["model"] == entry.model) & (rows["B"] == ALL)]
     axes.plot(mean["time_fraction"], mean[column], **look)
 
 

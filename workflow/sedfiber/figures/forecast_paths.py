@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from sedfiber.core.array_types import Array
 from sedfiber.figures.best_and_worst import LINES, Pair, best_and_worst, pairs_of
+from sedfiber.figures.falls import plane_path
 from sedfiber.figures.style import (
     B_SYMBOL,
     BLACK,
@@ -89,8 +90,8 @@ def _draw_path(axes: Axes, pair: Pair, left: float, name: str) -> float:
     """One true path and its forecast, the least x of the true one at ``left``; returns where it starts."""
     shown = _even(len(pair.truth.t))
     shift = np.array([left - pair.truth.centre[:, 0].min(), -pair.truth.centre[0, 1]])
-    for path, color, width, size in ((pair.truth.centre, BLACK, 2.0, 6.0), (pair.forecast.centre, VERMILION, 0.8, 3.5)):
-        x, y = (path[shown] + shift).T
+    for fall, color, width, size in ((pair.truth, BLACK, 2.0, 6.0), (pair.forecast, VERMILION, 0.8, 3.5)):
+        x, y = (plane_path(fall)[shown] + shift).T
         axes.plot(x, y, color=color, linestyle=_dashes(name, width), linewidth=width)
         axes.plot(x[0], y[0], "v", color=color, markersize=size, markeredgewidth=0.0)
         axes.plot(x[-1], y[-1], "x", color=color, markersize=size, markeredgewidth=0.4 * width + 0.4)
@@ -116,7 +117,7 @@ def _draw_distances(axes: Axes, couples: Couples, norm: LogNorm) -> None:
 def _distances(pair: Pair) -> tuple[Array, Array]:
     """Distance fallen and |c − c̃|, in a, at the samples shown after t = 0."""
     shown = _even(len(pair.truth.t))[1:]
-    truth, forecast = pair.truth.centre, pair.forecast.centre
+    truth, forecast = plane_path(pair.truth), plane_path(pair.forecast)
     return truth[0, 1] - truth[shown, 1], np.linalg.norm(truth[shown] - forecast[shown], axis=1)
 
 

@@ -9,7 +9,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import LogLocator, NullLocator
 
 from sedfiber.figures.best_and_worst import LINES, Pair, best_and_worst, thinned
-from sedfiber.figures.falls import draw_shapes, snapshots
+from sedfiber.figures.falls import draw_shapes, plane_shapes, snapshots
 from sedfiber.figures.style import (
     B_SYMBOL,
     BLACK,
@@ -55,8 +55,9 @@ class _Row:
 
     def __init__(self, name: str, pair: Pair):
         self.name, self.pair = name, pair
-        self.samples = snapshots(pair.truth.t, pair.truth.shapes, SNAPSHOTS)
-        shown = pair.truth.shapes[self.samples, :, 1]
+        shapes = plane_shapes(pair.truth)
+        self.samples = snapshots(pair.truth.t, shapes, SNAPSHOTS)
+        shown = shapes[self.samples, :, 1]
         slack = max(0.0, 0.5 * (_LEAST_ROW * pair.truth.length - np.ptp(shown)))
         self.below, self.above = float(shown.min()) - slack, float(shown.max()) + slack
 
@@ -88,7 +89,7 @@ def _draw_row(axes: Axes, row: _Row, place: float, length: float) -> None:
     """True shapes wide and black, forecast shapes thin over them."""
     offsets = [(k * _SPACING * length, place) for k in range(SNAPSHOTS)]
     for fall, color, width in ((row.pair.truth, BLACK, TRUE_LINE), (row.pair.forecast, VERMILION, FORECAST_LINE)):
-        draw_shapes(axes, thinned(fall.shapes[row.samples]), offsets, [color] * SNAPSHOTS, width, clip_on=False)
+        draw_shapes(axes, thinned(plane_shapes(fall)[row.samples]), offsets, [color] * SNAPSHOTS, width, clip_on=False)
 
 
 def _words(row: _Row) -> str:

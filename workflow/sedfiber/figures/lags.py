@@ -5,7 +5,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sedfiber.core.validation import one_of
-from sedfiber.figures.forecasters import Forecaster, forecasters
+from sedfiber.figures.model_legend import LegendEntry, legend_entries
 from sedfiber.figures.style import (
     B_SYMBOL,
     GREY,
@@ -30,7 +30,7 @@ def draw_lags(table: pd.DataFrame, model: str) -> Figure:
         table, ("model", "recipe", "test_set"), ("latent_dim", "B", "lag", "E_shape_max", "E_shape_unlagged")
     )
     shown = _compared(rows, model)
-    rows = rows[rows["model"].isin([forecaster.model for forecaster in shown])]
+    rows = rows[rows["model"].isin([entry.model for entry in shown])]
     figure = Figure(figsize=(PAGE_WIDTH, 5.6))
     panels = figure.subplots(2, 2, sharex="row", sharey="row")
     for test_set, letters, (above, below) in zip(SET_TITLES, ("ac", "bd"), panels.T, strict=True):
@@ -46,33 +46,33 @@ def draw_lags(table: pd.DataFrame, model: str) -> Figure:
     return figure
 
 
-def _compared(rows: pd.DataFrame, model: str) -> list[Forecaster]:
+def _compared(rows: pd.DataFrame, model: str) -> list[LegendEntry]:
     """The chosen model and those of the source's recipe."""
-    known = {forecaster.model: forecaster for forecaster in forecasters(rows)}
+    known = {entry.model: entry for entry in legend_entries(rows)}
     chosen = known.pop(one_of("model", model, known))
     return [chosen, *(other for other in known.values() if other.recipe == "source")]
 
 
-def _draw_lags(axes: Axes, rows: pd.DataFrame, shown: list[Forecaster]) -> None:
+def _draw_lags(axes: Axes, rows: pd.DataFrame, shown: list[LegendEntry]) -> None:
     """One point per trajectory that has a lag there; the line joins the medians at each ℬ."""
     axes.axhline(0.0, color=GREY, linewidth=0.8)
-    for place, forecaster in enumerate(shown):
-        own = rows[rows["model"] == forecaster.model]
+    for place, entry in enumerate(shown):
+        own = rows[rows["model"] == entry.model]
         B = own["B"] * _DODGE ** (2 * place - len(shown) + 1)
-        axes.plot(B, own["lag"], forecaster.marker, color=forecaster.color, label=forecaster.label, **_POINT)
+        axes.plot(B, own["lag"], entry.marker, color=entry.color, label=entry.label, **_POINT)
         middle = own.groupby(B)["lag"].median()
-        axes.plot(middle.index, middle, color=forecaster.color, linewidth=1.2)
+        axes.plot(middle.index, middle, color=entry.color, linewidth=1.2)
     axes.set_yscale("symlog", linthresh=_LINEAR)
     axes.set(xscale="log", xlabel=f"elasto-gravitational number {B_SYMBOL}")
     set_plain_ticks(axes.xaxis)
 
 
-def _draw_errors(axes: Axes, rows: pd.DataFrame, shown: list[Forecaster]) -> None:
+def _draw_errors(axes: Axes, rows: pd.DataFrame, shown: list[LegendEntry]) -> None:
     """On the line of 1 a lag explains nothing, on that of 0.01 it explains 99 % of the error."""
-    for forecaster in shown:
-        own = rows[rows["model"] == forecaster.model]
+    for entry in shown:
+        own = rows[rows["model"] == entry.model]
         errors = own["E_shape_max"], own["E_shape_unlagged"]
-        axes.plot(*errors, forecaster.marker, color=forecaster.color, **_POINT)
+        axes.plot(*errors, entry.marker, color=entry.color, **_POINT)
     axes.set(xscale="log", yscale="log", xlabel=r"largest $E_\mathrm{shape}$")
     start = rows["E_shape_max"].min()
     for share, (line, words) in _SHARES.items():

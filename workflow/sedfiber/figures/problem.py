@@ -53,10 +53,9 @@ class _Fall:
     """A run in the plane, seen from where its centre bead starts, lengths in L."""
 
     def __init__(self, run: Trajectory):
-        length = 2.0 * run.n_beads
-        self.path = (run.centre - run.centre[0])[:, :2] / length
-        self.shapes = run.shape[..., :2] / length
-        self.radius = 1.0 / length
+        self.path = (run.centre - run.centre[0])[:, :2] / run.length
+        self.shapes = run.shape[..., :2] / run.length
+        self.radius = 1.0 / run.length
         along = self.shapes[0, -1] - self.shapes[0, 0]
         self.along = along / np.hypot(*along)
         self.across = np.array([-self.along[1], self.along[0]])

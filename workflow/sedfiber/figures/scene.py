@@ -7,6 +7,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 
 from sedfiber.core.array_types import Array
+from sedfiber.figures.falls import snapshots
 from sedfiber.figures.style import BLACK, BLUE, GREY, ORANGE, PAGE_WIDTH, PURPLE, VERMILION, place_legend
 from sedfiber.simulation.trajectory import Trajectory
 
@@ -29,7 +30,7 @@ def draw_scene(run: Trajectory, title: str) -> Figure:
     figure = Figure(figsize=(PAGE_WIDTH, sum(heights) + 0.25 * len(views) + 2.6))
     upper, lower = figure.add_gridspec(2, 1, height_ratios=[sum(heights) + 0.25 * len(views), 2.0])
     grid = upper.subgridspec(len(views), SNAPSHOTS, height_ratios=heights)
-    samples = _samples(run.t, flat[0].seen)
+    samples = snapshots(run.t, flat[0].seen.reshape(len(run.t), -1, 2), SNAPSHOTS)
     for k, (view, frames) in enumerate(zip(views, flat, strict=True)):
         row = [figure.add_subplot(grid[k, column]) for column in range(SNAPSHOTS)]
         _draw_snapshots(row, run, frames, view, samples, with_times=k == 0)
@@ -54,14 +55,6 @@ class Frames:
         self.shape = float(self.reach[1] / self.reach[0])
         if self.shape > 1.6:  # no frame is drawn taller than that
             self.reach[0], self.shape = self.reach[1] / 1.6, 1.6
-
-
-def _samples(t: Array, seen: Array) -> Array:
-    """Snapshots spaced evenly half by time and half by how much the beads move in the frame."""
-    steps = np.sqrt((np.diff(seen, axis=0) ** 2).sum(-1).mean(axis=(1, 2)))
-    path = np.concatenate([[0.0], np.cumsum(steps)])
-    pace = t / max(t[-1], 1e-300) + path / max(path[-1], 1e-300)
-    return np.searchsorted(pace, np.linspace(0.0, pace[-1], SNAPSHOTS) * (1.0 - 1e-12))
 
 
 def _draw_snapshots(
@@ -106,7 +99,7 @@ def _draw_ends(axes: Axes, run: Trajectory) -> None:
     fibers = run.fibers
     for k, color in zip(range(fibers.shape[1]), FIBER_COLORS * fibers.shape[1], strict=False):
         name = f"fiber {k + 1}" if fibers.shape[1] > 1 else "fiber"
-        ends = np.linalg.norm(fibers[:, k, -1] - fibers[:, k, 0], axis=-1) / (2.0 * run.n_beads)
+        ends = np.linalg.norm(fibers[:, k, -1] - fibers[:, k, 0], axis=-1) / run.length
         axes.plot(run.t, ends, color=color, label=name)
     axes.set(ylabel="end-to-end distance / L", ylim=(0.0, 1.05))
     height = fibers.mean(axis=(1, 2))[:, 1]
@@ -119,7 +112,7 @@ def _draw_ends(axes: Axes, run: Trajectory) -> None:
 
 def _draw_extents(axes: Axes, run: Trajectory) -> None:
     """Along each axis that a fiber reaches along; logarithmic where it leaves the plane from next to nothing."""
-    extents = np.ptp(run.fibers, axis=2) / (2.0 * run.n_beads)  # (T, fibers, 3)
+    extents = np.ptp(run.fibers, axis=2) / run.length  # (T, fibers, 3)
     out_of_plane = extents[..., 2][extents[..., 2] > _LEAST_EXTENT]
     floor = 0.0
     if out_of_plane.size and out_of_plane.max() > _DECADES * out_of_plane.min():

@@ -6,8 +6,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sedfiber.figures.falls import Fall, add_time_bar, draw_shapes, snapshots, time_colors
+from sedfiber.figures.falls import add_time_bar, draw_shapes, plane_shapes, settled_at, snapshots, time_colors
 from sedfiber.figures.style import B_SYMBOL, BLACK, PAGE_WIDTH, VERMILION
+from sedfiber.simulation.trajectory import Trajectory
 from sedfiber.study.angles import ANGLES_PER_HALF_TURN
 
 SNAPSHOTS = 12  # of each fall, the first and the last among them
@@ -15,7 +16,7 @@ COLUMNS = 6
 _MARGIN = 2.5  # a, around the shapes
 
 
-def draw_shapes_by_angle(falls: list[Fall]) -> Figure:
+def draw_shapes_by_angle(falls: list[Trajectory]) -> Figure:
     """A panel for each angle, all at one scale: shapes over one another, seen from the centre bead."""
     columns = min(COLUMNS, len(falls))
     rows = math.ceil(len(falls) / columns)
@@ -29,18 +30,19 @@ def draw_shapes_by_angle(falls: list[Fall]) -> Figure:
     return figure
 
 
-def _draw_fall(axes: Axes, fall: Fall) -> None:
+def _draw_fall(axes: Axes, fall: Trajectory) -> None:
     """Shapes coloured by their times, the start dashed, the last one thick."""
-    chosen = snapshots(fall.t, fall.shapes, SNAPSHOTS)
+    shapes = plane_shapes(fall)
+    chosen = snapshots(fall.t, shapes, SNAPSHOTS)
     middle = chosen[1:-1]
-    axes.plot(*fall.shapes[0].T, color=BLACK, linewidth=1.0, linestyle=(0, (3, 1.5)), label="start")
-    draw_shapes(axes, fall.shapes[middle], [(0.0, 0.0)] * len(middle), time_colors(fall.t)[middle])
-    axes.plot(*fall.shapes[-1].T, color=VERMILION, linewidth=1.8, label="terminal shape", solid_capstyle="round")
+    axes.plot(*shapes[0].T, color=BLACK, linewidth=1.0, linestyle=(0, (3, 1.5)), label="start")
+    draw_shapes(axes, shapes[middle], [(0.0, 0.0)] * len(middle), time_colors(fall.t)[middle])
+    axes.plot(*shapes[-1].T, color=VERMILION, linewidth=1.8, label="terminal shape", solid_capstyle="round")
     degrees = 180.0 * fall.angle_index / ANGLES_PER_HALF_TURN
-    axes.set_title(f"k = {fall.angle_index}, θ₀ = {degrees:g}°\nT ≈ {fall.settled} a/U$_s$", fontsize=7.0)
+    axes.set_title(f"k = {fall.angle_index}, θ₀ = {degrees:g}°\nT ≈ {settled_at(fall)} a/U$_s$", fontsize=7.0)
 
 
-def _label(figure: Figure, panels: np.ndarray, first: Fall) -> None:
+def _label(figure: Figure, panels: np.ndarray, first: Trajectory) -> None:
     """One scale for all panels, the words at the edges, the keys below."""
     reach = 0.5 * first.length + _MARGIN
     panels[0, 0].set(xlim=(-reach, reach), ylim=(-reach, reach))

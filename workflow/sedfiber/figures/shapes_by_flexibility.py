@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from sedfiber.core.array_types import Array
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import one_of
-from sedfiber.figures.falls import Fall, add_time_bar, draw_shapes, snapshots, time_colors
+from sedfiber.figures.falls import add_time_bar, draw_shapes, plane_shapes, settled_at, snapshots, time_colors
 from sedfiber.figures.style import (
     B_SYMBOL,
     BLACK,
@@ -23,6 +23,7 @@ from sedfiber.figures.style import (
     place_legend,
 )
 from sedfiber.figures.table_input import select_columns
+from sedfiber.simulation.trajectory import Trajectory
 from sedfiber.study.angles import ANGLES_PER_HALF_TURN
 from sedfiber.study.regimes import REGIMES
 
@@ -39,7 +40,7 @@ _SHAPES_WIDTH = 3.75  # inches, a little less than there is: equal axes then lea
 _BAR = -0.19  # of the width of the shapes' panel: the regimes' bars, left of the words
 
 
-def draw_shapes_by_flexibility(falls: list[Fall], table: pd.DataFrame) -> Figure:
+def draw_shapes_by_flexibility(falls: list[Trajectory], table: pd.DataFrame) -> Figure:
     """A row for each ℬ: shapes from start to end, angles by which the fiber turned and bent, slide once folded."""
     rows = _rows_of(falls, table)
     grid = _Grid(falls)
@@ -63,9 +64,9 @@ def draw_shapes_by_flexibility(falls: list[Fall], table: pd.DataFrame) -> Figure
 class _Grid:
     """Where each shape stands, in a: one row a fall, the first on top, as close as no two can touch."""
 
-    def __init__(self, falls: list[Fall]):
-        self.samples = [snapshots(fall.t, fall.shapes, SNAPSHOTS) for fall in falls]
-        shown = np.array([fall.shapes[chosen] for fall, chosen in zip(falls, self.samples, strict=True)])
+    def __init__(self, falls: list[Trajectory]):
+        self.samples = [snapshots(fall.t, plane_shapes(fall), SNAPSHOTS) for fall in falls]
+        shown = np.array([plane_shapes(fall)[chosen] for fall, chosen in zip(falls, self.samples, strict=True)])
         gap = GAP * falls[0].length
         self.columns = np.arange(SNAPSHOTS) * (np.ptp(shown[..., 0], axis=-1).max() + gap)
         self.low, self.high = shown[..., 1].min() - gap, shown[..., 1].max() + gap
@@ -79,7 +80,7 @@ class _Grid:
         return self.rows + 0.5 * (self.low + self.high)
 
 
-def _rows_of(falls: list[Fall], table: pd.DataFrame) -> pd.DataFrame:
+def _rows_of(falls: list[Trajectory], table: pd.DataFrame) -> pd.DataFrame:
     """The table's row of each fall, in order."""
     known = select_columns(table, ("regime",), ("B", "angle_index", *ANGLES, "slid_folded", "bond"))
     for regime in known["regime"]:
@@ -91,14 +92,15 @@ def _rows_of(falls: list[Fall], table: pd.DataFrame) -> pd.DataFrame:
     return known.loc[[(fall.B, fall.angle_index) for fall in falls]]
 
 
-def _draw_shapes(axes: Axes, falls: list[Fall], grid: _Grid) -> None:
+def _draw_shapes(axes: Axes, falls: list[Trajectory], grid: _Grid) -> None:
     """Rows of shapes in the colours of their times, ℬ and T before each."""
     for fall, chosen, row in zip(falls, grid.samples, grid.rows, strict=True):
         offsets = [(column, row) for column in grid.columns]
-        draw_shapes(axes, fall.shapes[chosen], offsets, time_colors(fall.t)[chosen], 1.5)
-        ends = axes.plot(*(fall.shapes[chosen, 0] + offsets).T, "o", color=BLACK, markersize=1.8)
+        shapes = plane_shapes(fall)[chosen]
+        draw_shapes(axes, shapes, offsets, time_colors(fall.t)[chosen], 1.5)
+        ends = axes.plot(*(shapes[:, 0] + offsets).T, "o", color=BLACK, markersize=1.8)
     ends[0].set_label("first bead, lower at the start")
-    names = [f"{B_SYMBOL} = {fall.B:g}\nT ≈ {fall.settled}" for fall in falls]
+    names = [f"{B_SYMBOL} = {fall.B:g}\nT ≈ {settled_at(fall)}" for fall in falls]
     axes.set_yticks(grid.middles, names, fontsize=7.0)
     axes.margins(x=0.01)
     axes.set(ylim=(grid.rows[-1] + grid.low, grid.high), xticks=[], aspect="equal", adjustable="datalim")

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from sedfiber.core.array_types import Array, Positions
-from sedfiber.reduced.dataset import Trajectory
+from sedfiber.reduced.dataset import SettlingFall
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,6 @@ class Start:
         return 1.0 if self.nearest is None else min(1.0, self.B / self.nearest[0])
 
     @classmethod
-    def of(cls, trajectory: Trajectory) -> "Start":
+    def of(cls, trajectory: SettlingFall) -> "Start":
         """The start of a stored trajectory: its first sample and its steady state."""
         return cls(trajectory.B, trajectory.positions[0], trajectory.terminal, trajectory.terminal_velocity)

@@ -14,7 +14,6 @@ import numpy as np
 
 from sedfiber.core.array_types import Array, History
 from sedfiber.core.errors import InputError
-from sedfiber.reduced.dataset import centre_index
 
 
 @dataclass(frozen=True)
@@ -39,7 +38,7 @@ def forecast_error(truth: History, forecast: History) -> ForecastError:
         raise InputError(f"forecast has shape {forecast.shape}, the trajectory {truth.shape}")
     n_beads = truth.shape[1]
     length = 2.0 * n_beads
-    middle = centre_index(n_beads)
+    middle = n_beads // 2
     centre, guess = truth[:, middle], forecast[:, middle]
     offset = (truth - centre[:, None]) - (forecast - guess[:, None])
     shape = (offset**2).sum(axis=(1, 2)) / (n_beads * length**2)

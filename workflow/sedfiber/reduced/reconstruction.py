@@ -7,13 +7,13 @@ import torch
 
 from sedfiber.core.array_types import Array
 from sedfiber.reduced.autoencoder import Autoencoder
-from sedfiber.reduced.dataset import Trajectory
+from sedfiber.reduced.dataset import SettlingFall
 from sedfiber.reduced.measures import reconstruction_errors
 from sedfiber.reduced.pod import ModalBasis
 from sedfiber.reduced.scaling import Scales, residual_history
 
 
-def autoencoder_errors(model: Autoencoder, trajectory: Trajectory) -> Array:
+def autoencoder_errors(model: Autoencoder, trajectory: SettlingFall) -> Array:
     """‖X̌ − D(E(X̌; ℬ); ℬ)‖² at each stored sample, shape (T,), units of L/2 squared."""
     residual = residual_history(trajectory, model.scales)
     exact = copy.deepcopy(model).double()
@@ -24,7 +24,7 @@ def autoencoder_errors(model: Autoencoder, trajectory: Trajectory) -> Array:
     return reconstruction_errors(residual, reconstructed.numpy())
 
 
-def pod_errors(basis: ModalBasis, scales: Scales, trajectory: Trajectory) -> Array:
+def pod_errors(basis: ModalBasis, scales: Scales, trajectory: SettlingFall) -> Array:
     """‖X̌ − Σ_j φ_j φ_j·X̌‖² at each stored sample, shape (T,), units of L/2 squared."""
     residual = residual_history(trajectory, scales)
     return reconstruction_errors(residual, basis.reconstruct(basis.coefficients(residual)))

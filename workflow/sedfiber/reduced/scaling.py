@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from sedfiber.core.array_types import Array
-from sedfiber.reduced.dataset import Dataset, Trajectory, centre_index
+from sedfiber.reduced.dataset import Dataset, SettlingFall
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Scales:
 
     def residual(self, positions: Array, terminal: Array) -> Array:
         """Residual shapes X̌ in units of L/2; ``positions`` (…, N, 3) gives (…, 3N)."""
-        centre = positions[..., centre_index(self.n_beads), None, :]
+        centre = positions[..., self.n_beads // 2, None, :]
         residual = (positions - centre - terminal) / self.half_length
         return residual.reshape(*residual.shape[:-2], -1)
 
@@ -53,7 +53,7 @@ class Scales:
 
     def centre(self, positions: Array) -> Array:
         """Centre bead in units of L/2, shape (…, 3)."""
-        return positions[..., centre_index(self.n_beads), :] / self.half_length
+        return positions[..., self.n_beads // 2, :] / self.half_length
 
     def covers(self, B: float, theta0: float) -> bool:
         """Whether a forecast at ``B`` and ``theta0`` stays within the training range."""
@@ -66,6 +66,6 @@ class Scales:
         return min(max(B, self.B_min), self.B_max)
 
 
-def residual_history(trajectory: Trajectory, scales: Scales) -> Array:
+def residual_history(trajectory: SettlingFall, scales: Scales) -> Array:
     """Residual shapes of one trajectory, shape (T, 3N), units L/2."""
     return scales.residual(trajectory.positions, trajectory.terminal)

@@ -13,6 +13,7 @@ from sedfiber.physics.gaps import closest_distance, smallest_gap
 from sedfiber.physics.pair_forms import RPY, RPY_OVERLAP, coefficients
 from sedfiber.scene.parts import Gravity
 from sedfiber.scene.scene import Scene
+from sedfiber.simulation.checks import largest_strain
 from sedfiber.simulation.equilibria.transverse import transverse_rates
 from sedfiber.simulation.recorded_run import Run
 
@@ -61,7 +62,7 @@ def audit(scene: Scene, run: Run) -> list[Verdict]:
     if scene.wall is None and scene.flow is not None and scene.flow.half_width is not None:
         found.append(_channel(scene.flow.half_width, run.positions))
     if scene.stretching is not None and scene.n_beads > 1:
-        found.append(_stretch(shapes, scene.n_beads, scene.stretching.factor))
+        found.append(_stretch(largest_strain(shapes, scene.n_beads), scene.stretching.factor))
     return found
 
 
@@ -123,10 +124,8 @@ def _channel(half_width: float, positions: History) -> Verdict:
     return Verdict("channel walls", furthest > 1.0, furthest, meaning, "wall: {point: …}")
 
 
-def _stretch(shapes: History, n_beads: int, factor: float) -> Verdict:
+def _stretch(strain: float, factor: float) -> Verdict:
     """What an inextensible model would not show."""
-    bonds = np.diff(shapes.reshape(len(shapes), -1, n_beads, shapes.shape[-1]), axis=2)
-    strain = float(np.abs(0.5 * np.linalg.norm(bonds, axis=3) - 1.0).max())
     meaning = "largest bond strain, which an inextensible fiber would not show"
     stiffer = f"stretching: {{factor: {10.0 * factor:g}}}, or beads"
     return Verdict("inextensibility", strain > STRETCH, strain, meaning, stiffer)

@@ -69,10 +69,10 @@ def check(scene: Scene, system: System | MirrorSymmetric, run: Run, final_distan
     shapes = np.ascontiguousarray(run.shapes[..., : scene.dim])
     balanced = scene.noise is None
     return Checks(
-        bond_strain_max=_largest_strain(shapes, scene.n_beads),
+        bond_strain_max=largest_strain(shapes, scene.n_beads),
         strain_bound=strain_bound(scene),
         smallest_gap=_smallest_gap(shapes, scene.n_beads),
-        energy_imbalance=_energy_imbalance(system, scene, positions, run.work) if balanced else None,
+        energy_imbalance=_energy_imbalance(system, scene, positions, run.states[:, -1]) if balanced else None,
         energy_bound=ENERGY_BALANCE if balanced else None,
         final_distance=final_distance,
         wall_gap=None if scene.wall is None else _wall_gap(scene.wall, positions),
@@ -80,7 +80,8 @@ def check(scene: Scene, system: System | MirrorSymmetric, run: Run, final_distan
     )
 
 
-def _largest_strain(shapes: History, n_beads: int) -> float | None:
+def largest_strain(shapes: History, n_beads: int) -> float | None:
+    """``|r/2 − 1|`` over all bonds of shapes (T, beads, d); None where there is no bond."""
     if n_beads == 1:
         return None
     bonds = np.diff(shapes.reshape(len(shapes), -1, n_beads, shapes.shape[-1]), axis=2)

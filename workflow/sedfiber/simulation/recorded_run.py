@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from sedfiber.core.array_types import Array, History, State, Times
+from sedfiber.core.array_types import History, State, Times
 from sedfiber.physics.mirror import MirrorSymmetric
 from sedfiber.physics.system import System
 
@@ -23,11 +23,6 @@ class Run:
     def of(cls, system: System | MirrorSymmetric, t: Times, states: State) -> "Run":
         """The run through ``states`` (T, size) of ``system``."""
         return cls(t, states, system.to_shapes(states), system.to_positions(states))
-
-    @property
-    def work(self) -> Array:
-        """Work of the conservative forces up to each sample, (T,), in 6πμaU_s·a."""
-        return self.states[:, -1]
 
     def until(self, count: int) -> "Run":
         """The first ``count`` samples."""

@@ -41,9 +41,10 @@ class SettlingMonitor:
             raise NumericalError(f"not settled by t = {self._max_time:g} (distance {distance:.3g} L); give --t-end")
         if distance < SETTLED or np.abs(self._system.relative_velocities(y)).max() > _STANDSTILL:
             return False
-        if self._symmetric and self.settled_to(y, shape) is not None:
+        settled_to = self.settled_to(y, shape)
+        if self._symmetric and settled_to is not None:
             return True
-        name = "the unstable W" if self.settled_to(y, shape) == "W" else "a steady shape"
+        name = "the unstable W" if settled_to == "W" else "a steady shape"
         raise NumericalError(
             f"came to rest at t = {t:g} in {name}, {distance:.3g} L from the terminal one; {self._way_out()}"
         )

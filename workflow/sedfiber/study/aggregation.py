@@ -1,31 +1,17 @@
 """From one file per trajectory to the data set and the table of facts, keyed by (ℬ, angle_index)."""
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 
-from sedfiber.core.array_types import History, Times
 from sedfiber.core.errors import InputError
+from sedfiber.simulation.trajectory import Trajectory
 from sedfiber.simulation.trajectory_file import read_trajectory
 
 CHECK_COLUMNS = ("bond_strain_max", "smallest_gap", "energy_imbalance", "final_distance")
 
 
-@dataclass(frozen=True)
-class Run:
-    """A simulated trajectory with its keys; ``theta0`` is the angle it really started from."""
-
-    split: str
-    B: float
-    angle_index: int
-    theta0: float
-    t: Times
-    positions: History
-    metadata: dict
-
-
-def read_runs(paths: list[Path], split: str) -> list[Run]:
+def read_runs(paths: list[Path], split: str) -> list[Trajectory]:
     """Read the files, sorted by (ℬ, angle_index); raises InputError when they do not belong together."""
     runs = [_read_run(path, split) for path in paths]
     beads = sorted({run.positions.shape[1] for run in runs})
@@ -34,21 +20,19 @@ def read_runs(paths: list[Path], split: str) -> list[Run]:
     return sorted(runs, key=lambda run: (run.B, run.angle_index))
 
 
-def facts_table(runs: list[Run]) -> pd.DataFrame:
+def facts_table(runs: list[Trajectory]) -> pd.DataFrame:
     """One row per trajectory: settling time, counters, checks and estimated error."""
     return pd.DataFrame([_facts(run) for run in runs])
 
 
-def _read_run(path: Path, split: str) -> Run:
-    trajectory = read_trajectory(path)
-    meta = trajectory.metadata
-    if meta.get("angle_index") is None:
+def _read_run(path: Path, split: str) -> Trajectory:
+    run = read_trajectory(path)
+    if run.metadata.get("angle_index") is None:
         raise InputError(f"dataset: {str(path)!r} has no angle_index; simulate it with --angle-index")
-    start = meta["scene"]["start_angle"]
-    return Run(split, meta["B"], meta["angle_index"], start, trajectory.t, trajectory.positions, meta)
+    return run.with_facts(split=split)
 
 
-def _facts(run: Run) -> dict:
+def _facts(run: Trajectory) -> dict:
     meta = run.metadata
     return {
         "split": run.split,

@@ -94,12 +94,9 @@ def _counts(run: Trajectory) -> dict[str, int]:
 
 def _influence(run: Trajectory, base: Trajectory, scene: Scene) -> dict[str, float]:
     """Change of the last shape in L, of the speed in %, and of the place in L; the first fiber's of several."""
-    n = scene.n_beads
-    first, other = base.positions, run.positions[:, :n]
-    centre = n // 2
-    shapes = [x[-1] - x[-1, centre] for x in (first, other)]
-    speeds = [np.linalg.norm(x[-1, centre] - x[-2, centre]) for x in (first, other)]
-    apart = np.linalg.norm(other[-1, centre] - first[-1, centre])
+    shapes = [one.shape[-1, : scene.n_beads] for one in (base, run)]
+    speeds = [np.linalg.norm(one.centre[-1] - one.centre[-2]) for one in (base, run)]
+    apart = np.linalg.norm(run.centre[-1] - base.centre[-1])
     return {
         "shape_change_L": float(np.sqrt(((shapes[1] - shapes[0]) ** 2).sum(axis=1).mean()) / scene.length),
         "speed_change_percent": float(100.0 * (speeds[1] / speeds[0] - 1.0)),

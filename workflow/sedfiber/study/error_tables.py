@@ -7,15 +7,16 @@ import pandas as pd
 
 from sedfiber.core.array_types import Array
 from sedfiber.core.errors import InputError
-from sedfiber.reduced.dataset import Dataset, Trajectory
+from sedfiber.reduced.dataset import Dataset
 from sedfiber.reduced.measures import ForecastError, ensemble_mean, forecast_error
+from sedfiber.simulation.trajectory import Trajectory
 
 TIME_FRACTIONS = np.linspace(0.0, 1.0, 201)  # of the settling period of each trajectory
 
 
 @dataclass(frozen=True)
-class Forecaster:
-    """What made a set of forecasts: a name, how it was trained, and its latent dimension."""
+class ModelLabel:
+    """What made a set of forecasts, in the tables: a name, how it was trained, and its latent dimension."""
 
     model: str
     recipe: str
@@ -38,12 +39,12 @@ def measure(truth: Dataset, forecast: Dataset) -> list[Measured]:
     return [Measured(one, forecast_error(one.positions, found[one.B, one.angle_index].positions)) for one in truth]
 
 
-def trajectory_rows(who: Forecaster, measured: list[Measured]) -> pd.DataFrame:
+def trajectory_rows(who: ModelLabel, measured: list[Measured]) -> pd.DataFrame:
     """One row per trajectory: largest, mean and last E, and the largest of its two parts."""
     return pd.DataFrame([_trajectory_row(who, one) for one in measured])
 
 
-def _trajectory_row(who: Forecaster, one: Measured) -> dict:
+def _trajectory_row(who: ModelLabel, one: Measured) -> dict:
     total = one.error.total
     return {
         "latent_dim": who.latent_dim,
@@ -58,13 +59,13 @@ def _trajectory_row(who: Forecaster, one: Measured) -> dict:
     }
 
 
-def ensemble_rows(who: Forecaster, measured: list[Measured]) -> pd.DataFrame:
+def ensemble_rows(who: ModelLabel, measured: list[Measured]) -> pd.DataFrame:
     """E, E_shape and E_pos over t/T, averaged over the angles of each ℬ and over all ("all")."""
     groups = _by_B(measured) | {"all": measured}
     return pd.concat([_ensemble(who, B, group) for B, group in groups.items()], ignore_index=True)
 
 
-def _ensemble(who: Forecaster, B: float | str, group: list[Measured]) -> pd.DataFrame:
+def _ensemble(who: ModelLabel, B: float | str, group: list[Measured]) -> pd.DataFrame:
     return pd.DataFrame(
         {
             "model": who.model,
@@ -86,12 +87,12 @@ def _mean_over_fraction(errors: list[Array]) -> Array:
     return np.mean(stretched, axis=0)
 
 
-def summary_rows(who: Forecaster, measured: list[Measured]) -> pd.DataFrame:
+def summary_rows(who: ModelLabel, measured: list[Measured]) -> pd.DataFrame:
     """Per ℬ: worst and median over angles of max_t E, and the largest ensemble mean at any time t."""
     return pd.DataFrame([_summary_row(who, B, group) for B, group in _by_B(measured).items()])
 
 
-def _summary_row(who: Forecaster, B: float, group: list[Measured]) -> dict:
+def _summary_row(who: ModelLabel, B: float, group: list[Measured]) -> dict:
     worst = [one.error.total.max() for one in group]
     return {
         "test_set": group[0].truth.split,

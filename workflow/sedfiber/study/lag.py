@@ -17,8 +17,9 @@ from scipy.interpolate import CubicSpline
 
 from sedfiber.core.array_types import Array, History, Times
 from sedfiber.core.errors import InputError
-from sedfiber.reduced.dataset import Dataset, Trajectory, centre_index
-from sedfiber.study.error_tables import Forecaster
+from sedfiber.reduced.dataset import Dataset
+from sedfiber.simulation.trajectory import Trajectory
+from sedfiber.study.error_tables import ModelLabel
 
 MOVING = 0.1  # of the greatest rate: below, a small error of shape would pass for a long lag
 _ROUNDS = 60  # of Gauss and Newton's method; a good start needs about five
@@ -63,7 +64,7 @@ def measure_lag(t: Times, truth: History, forecast: History) -> Lag:
     return Lag(t, lag, _distance(path, t, guess) / unit, _distance(path, moments, guess) / unit)
 
 
-def lag_rows(who: Forecaster, truth: Dataset, forecast: Dataset) -> pd.DataFrame:
+def lag_rows(who: ModelLabel, truth: Dataset, forecast: Dataset) -> pd.DataFrame:
     """One row per trajectory: lag and error at the moment of the largest E_shape, and the largest |lag|.
 
     Raises InputError when the two do not hold the same trajectories.
@@ -73,7 +74,7 @@ def lag_rows(who: Forecaster, truth: Dataset, forecast: Dataset) -> pd.DataFrame
     return pd.DataFrame([_row(who, *pair) for pair in zip(truth, forecast, strict=True)])
 
 
-def _row(who: Forecaster, truth: Trajectory, forecast: Trajectory) -> dict:
+def _row(who: ModelLabel, truth: Trajectory, forecast: Trajectory) -> dict:
     measured = measure_lag(truth.t, truth.positions, forecast.positions)
     worst = measured.worst
     before, after = measured.E_shape[worst], measured.E_shape_unlagged[worst]
@@ -95,7 +96,7 @@ def _row(who: Forecaster, truth: Trajectory, forecast: Trajectory) -> dict:
 
 def _flat_shapes(positions: History) -> Array:
     """X̄ of every sample, (T, 3N)."""
-    shapes = positions - positions[:, [centre_index(positions.shape[1])]]
+    shapes = positions - positions[:, [positions.shape[1] // 2]]
     return shapes.reshape(len(positions), -1)
 
 

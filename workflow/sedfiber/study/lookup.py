@@ -10,7 +10,7 @@ from scipy.interpolate import make_interp_spline
 
 from sedfiber.core.array_types import Array, History, Positions, Times
 from sedfiber.core.errors import InputError
-from sedfiber.reduced.dataset import Dataset, Trajectory
+from sedfiber.reduced.dataset import Dataset, SettlingFall
 
 
 class LookupTable:
@@ -55,7 +55,7 @@ def spline_weights(nodes: Array, x: float) -> Array:
     return make_interp_spline(nodes, np.eye(len(nodes)), k=min(3, len(nodes) - 1))(x)
 
 
-def _extended(trajectory: Trajectory, t: Times) -> Array:
+def _extended(trajectory: SettlingFall, t: Times) -> Array:
     """Positions at all of ``t`` (T, N, 3), the last shape falling steadily after the end."""
     n = len(trajectory.t)
     if not np.allclose(trajectory.t, t[:n], rtol=0, atol=1e-9):

@@ -6,7 +6,7 @@ import numpy as np
 
 from sedfiber.core.array_types import Array
 from sedfiber.reduced.autoencoder import Autoencoder
-from sedfiber.reduced.dataset import Dataset, Trajectory
+from sedfiber.reduced.dataset import Dataset, SettlingFall
 from sedfiber.reduced.pod import pod_basis
 from sedfiber.reduced.reconstruction import autoencoder_errors, mean_over_samples, pod_errors
 from sedfiber.reduced.scaling import Scales
@@ -40,7 +40,7 @@ def _pod_rows(models: list[Autoencoder], training: Dataset, tests: list[Dataset]
     return rows
 
 
-def _measure(errors: Callable[[Trajectory], Array], scales: Scales, count: int) -> Callable[[Dataset], dict]:
+def _measure(errors: Callable[[SettlingFall], Array], scales: Scales, count: int) -> Callable[[Dataset], dict]:
     def measure(test: Dataset) -> dict:
         stored = [errors(one) for one in test]
         even = [e[path_even_indices(one, scales, count)] for e, one in zip(stored, test, strict=True)]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from sedfiber.core.errors import InputError
 from sedfiber.reduced.dataset import Dataset, read_dataset
-from sedfiber.study.error_tables import Forecaster
+from sedfiber.study.error_tables import ModelLabel
 
 _RECIPES = ("rollout", "source", "lookup")
 
@@ -25,20 +25,20 @@ def add_forecaster_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def read_forecasts(args: argparse.Namespace) -> Iterator[tuple[Forecaster, Dataset, Dataset]]:
-    """Forecaster, truth and forecast, split by split; the truth of each split is read once.
+def read_forecasts(args: argparse.Namespace) -> Iterator[tuple[ModelLabel, Dataset, Dataset]]:
+    """Label, truth and forecast, split by split; the truth of each split is read once.
 
     Raises InputError for words that are no forecaster.
     """
     truths = [read_dataset(*pair) for pair in zip(args.truth, args.shapes, strict=True)]
     for words in args.forecaster:
-        who, paths = _forecaster(words, len(truths))
+        who, paths = _label_and_paths(words, len(truths))
         for truth, shapes, path in zip(truths, args.shapes, paths, strict=True):
             yield who, truth, read_dataset(path, shapes)
 
 
-def _forecaster(words: list[str], n_splits: int) -> tuple[Forecaster, list[Path]]:
+def _label_and_paths(words: list[str], n_splits: int) -> tuple[ModelLabel, list[Path]]:
     if len(words) != 3 + n_splits or words[1] not in _RECIPES:
         raise InputError(f"forecaster: {' '.join(words)!r} is not allowed; give name, recipe, dimension, files")
     name, recipe, dim, *paths = words
-    return Forecaster(name, recipe, None if dim == "-" else int(dim)), [Path(path) for path in paths]
+    return ModelLabel(name, recipe, None if dim == "-" else int(dim)), [Path(path) for path in paths]

@@ -32,7 +32,7 @@ def run(args: argparse.Namespace) -> None:
     values = {key: value for key, value in first.metadata["scene"].items() if key != "start_angle"}
     numerics = Numerics(args.integrator, tolerance, tolerance, first.metadata["numerics"]["interval"])
     second = simulate(Scene.from_dict(values), numerics, t_end=float(first.t[-1]))
-    difference = largest_distance(first.positions, second.positions, 2.0 * first.n_beads)
+    difference = largest_distance(first.positions, second.positions, first.length)
     if not difference <= bound:
         raise NumericalError(f"runs differ by {difference:.3g} L, more than {bound:g} L; try a smaller rtol")
     facts = {

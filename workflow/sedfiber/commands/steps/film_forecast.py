@@ -4,9 +4,11 @@ import argparse
 from pathlib import Path
 
 from sedfiber.core.atomic_file import require_writable
-from sedfiber.figures.falls import Fall, falls_where, read_falls
+from sedfiber.figures.falls import falls_where
 from sedfiber.figures.films.film import write_film
 from sedfiber.figures.films.forecast import film_forecast
+from sedfiber.reduced.dataset_file import read_falls
+from sedfiber.simulation.trajectory import Trajectory
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -25,6 +27,6 @@ def run(args: argparse.Namespace) -> None:
     write_film(lambda: film_forecast(truth, forecast), args.output)
 
 
-def _one(path: Path, B: float, angle_index: int) -> Fall:
+def _one(path: Path, B: float, angle_index: int) -> Trajectory:
     [fall] = falls_where(falls_where(read_falls(path), "B", B), "angle_index", angle_index)
     return fall

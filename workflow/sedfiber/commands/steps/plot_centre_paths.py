@@ -5,7 +5,8 @@ from pathlib import Path
 
 from sedfiber.figures.centre_paths import draw_centre_paths
 from sedfiber.figures.drawing import add_output_arguments, write_drawing
-from sedfiber.figures.falls import falls_where, read_falls
+from sedfiber.figures.falls import falls_where
+from sedfiber.reduced.dataset_file import read_falls
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

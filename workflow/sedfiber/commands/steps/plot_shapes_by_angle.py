@@ -4,8 +4,9 @@ import argparse
 from pathlib import Path
 
 from sedfiber.figures.drawing import add_output_arguments, write_drawing
-from sedfiber.figures.falls import falls_where, read_falls
+from sedfiber.figures.falls import falls_where
 from sedfiber.figures.shapes_by_angle import draw_shapes_by_angle
+from sedfiber.reduced.dataset_file import read_falls
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -5,8 +5,9 @@ from pathlib import Path
 
 from sedfiber.core.csv_file import read_csv
 from sedfiber.figures.drawing import add_output_arguments, write_drawing
-from sedfiber.figures.falls import falls_where, read_falls
+from sedfiber.figures.falls import falls_where
 from sedfiber.figures.shapes_by_flexibility import draw_shapes_by_flexibility
+from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.study.angles import angle_index
 
 

@@ -10,7 +10,7 @@ from sedfiber.core.atomic_file import require_writable
 from sedfiber.core.csv_file import write_csv
 from sedfiber.reduced.dataset import Dataset
 from sedfiber.study.error_tables import (
-    Forecaster,
+    ModelLabel,
     ensemble_rows,
     measure,
     summary_rows,
@@ -40,7 +40,7 @@ def run(args: argparse.Namespace) -> None:
         write_csv(table, getattr(args, name))
 
 
-def _add(tables: dict[str, list[pd.DataFrame]], who: Forecaster, truth: Dataset, forecast: Dataset) -> None:
+def _add(tables: dict[str, list[pd.DataFrame]], who: ModelLabel, truth: Dataset, forecast: Dataset) -> None:
     measured = measure(truth, forecast)
     tables[_ERRORS_OF[who.recipe]].append(trajectory_rows(who, measured))
     tables["ensemble_errors"].append(ensemble_rows(who, measured))

@@ -8,7 +8,8 @@ import pandas as pd
 
 from sedfiber.core.atomic_file import require_writable
 from sedfiber.core.csv_file import write_csv
-from sedfiber.reduced.dataset import Trajectory, read_dataset
+from sedfiber.reduced.dataset import read_dataset
+from sedfiber.simulation.trajectory import Trajectory
 from sedfiber.study.regimes import measure_motion
 
 

@@ -18,18 +18,20 @@ import numpy as np
 from sedfiber.core.array_types import Array
 from sedfiber.core.errors import InputError
 from sedfiber.figures.data_sets import SETS
-from sedfiber.figures.falls import Fall, read_falls, snapshots
+from sedfiber.figures.falls import plane_path, plane_shapes, snapshots
 from sedfiber.reduced.compiled.model_file import read_model
 from sedfiber.reduced.compiled.network import Network
 from sedfiber.reduced.compiled.tableau import ERROR, EXTENSION, A
 from sedfiber.reduced.compiled.tables import Encoder, Tables, Tensors, tables
 from sedfiber.reduced.compiled.tolerances import ATOL, LEAST_ASYMMETRY, RTOL
+from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.reduced.forecaster import Forecaster, load_model
 from sedfiber.reduced.scaling import Scales
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.equilibria.terminal_curve import FILE as CURVE
 from sedfiber.simulation.equilibria.terminal_curve import TerminalCurve
 from sedfiber.simulation.settling import CONFIRMED, SETTLED, distance_to_terminal, settling_time
+from sedfiber.simulation.trajectory import Trajectory
 
 _PARTS = Path(__file__).parent
 _FORECASTING = ("data", "model", "integrate", "forecast", "settling", "simulated", "scene")
@@ -56,10 +58,10 @@ def explorer_page(folder: Path, datasets: Sequence[Path]) -> str:
     return _filled_in(_data(forecaster, tensors, falls), _words(forecaster, falls, len(given), card))
 
 
-def _data(forecaster: Forecaster, tensors: Tensors, falls: Sequence[Fall]) -> dict:
+def _data(forecaster: Forecaster, tensors: Tensors, falls: Sequence[Trajectory]) -> dict:
     """What the script reads; `embedded` in data.js."""
     half_length = forecaster.model.scales.half_length
-    quantum = max(np.abs(fall.shapes).max() for fall in falls) / _LARGEST
+    quantum = max(np.abs(plane_shapes(fall)).max() for fall in falls) / _LARGEST
     return {
         "model": _model(forecaster, tables(tensors, half_length, dim=2), Encoder(tensors, half_length)),
         "curve": _curve(forecaster.curve),
@@ -71,21 +73,21 @@ def _data(forecaster: Forecaster, tensors: Tensors, falls: Sequence[Fall]) -> di
     }
 
 
-def _falls_of(path: Path, forecaster: Forecaster) -> list[Fall]:
+def _falls_of(path: Path, forecaster: Forecaster) -> list[Trajectory]:
     """The falls of a data set, all such that the page can show them."""
     falls = read_falls(path)
     for fall in falls:
         wrong = _misfit(fall, forecaster)
         if wrong:
-            raise InputError(f"dataset: {str(path)!r}: B = {fall.B:g}, angle_index = {fall.angle_index} {wrong}")
+            raise InputError(f"dataset: {str(path)!r}: {fall.name} {wrong}")
     return falls
 
 
-def _misfit(fall: Fall, forecaster: Forecaster) -> str:
+def _misfit(fall: Trajectory, forecaster: Forecaster) -> str:
     """Why a fall does not belong on the page; empty for one that does."""
     n_beads = forecaster.model.scales.n_beads
-    if fall.positions.shape[1] != n_beads:
-        return f"has {fall.positions.shape[1]} beads, the model {n_beads}"
+    if fall.n_beads != n_beads:
+        return f"has {fall.n_beads} beads, the model {n_beads}"
     if fall.split not in SETS:
         return f"is of the split {fall.split!r}, not of {', '.join(SETS)}"
     if len(fall.t) < _FEWEST_SAMPLES or not (np.isfinite(fall.t).all() and np.isfinite(fall.positions).all()):
@@ -93,12 +95,12 @@ def _misfit(fall: Fall, forecaster: Forecaster) -> str:
     return "leaves the plane z = 0" if np.abs(fall.positions[..., 2]).max() > _FLAT else ""
 
 
-def _is_within_range(fall: Fall, forecaster: Forecaster) -> bool:
+def _is_within_range(fall: Trajectory, forecaster: Forecaster) -> bool:
     """Whether the page can forecast it: it knows nothing of what a forecast is outside the training."""
     return forecaster.covers(fall.B, fall.theta0) and forecaster.curve.covers(fall.B)
 
 
-def _splits(falls: Sequence[Fall]) -> list[str]:
+def _splits(falls: Sequence[Trajectory]) -> list[str]:
     """The splits there are, in the order of `SETS`."""
     there = {fall.split for fall in falls}
     return [split for split in SETS if split in there]
@@ -152,12 +154,12 @@ def _method() -> dict:
     return {"A": A.tolist(), "error": ERROR.tolist(), "extension": EXTENSION.tolist(), **tolerances}
 
 
-def _fall(fall: Fall, curve: TerminalCurve, quantum: float) -> dict:
+def _fall(fall: Trajectory, curve: TerminalCurve, quantum: float) -> dict:
     """A few samples of a fall, as many by time as by how far the beads move, and when it settled."""
     early = [s for s in _EARLY if s < len(fall.t)]
-    kept = np.unique([*snapshots(fall.t, fall.shapes, min(_SAMPLES, len(fall.t))), *early])
-    spatial = fall.positions - fall.positions[:, fall.positions.shape[1] // 2, None]
-    settled = settling_time(fall.t, distance_to_terminal(spatial, curve(fall.B)[0], fall.length))
+    shapes = plane_shapes(fall)
+    kept = np.unique([*snapshots(fall.t, shapes, min(_SAMPLES, len(fall.t))), *early])
+    settled = settling_time(fall.t, distance_to_terminal(fall.shape, curve(fall.B)[0], fall.length))
     return {
         "split": fall.split,
         "B": fall.B,
@@ -165,8 +167,8 @@ def _fall(fall: Fall, curve: TerminalCurve, quantum: float) -> dict:
         "theta0": fall.theta0,
         "settling_time": settled,
         "t": _packed(fall.t[kept], "float32"),
-        "centre": _packed(fall.centre[kept], "float32"),
-        "shapes": _packed(np.rint(fall.shapes[kept] / quantum), "int16"),
+        "centre": _packed(plane_path(fall)[kept], "float32"),
+        "shapes": _packed(np.rint(shapes[kept] / quantum), "int16"),
     }
 
 
@@ -176,7 +178,7 @@ def _packed(array: Array, kind: str = "float64") -> dict:
     return {"type": kind, "data": base64.b64encode(content).decode()}
 
 
-def _words(forecaster: Forecaster, falls: Sequence[Fall], given: int, card: dict) -> dict[str, str]:
+def _words(forecaster: Forecaster, falls: Sequence[Trajectory], given: int, card: dict) -> dict[str, str]:
     """What the page says of the model and the falls, which may be fewer than were ``given``."""
     model, scales = forecaster.model, forecaster.model.scales
     counts = {split: sum(fall.split == split for fall in falls) for split in _splits(falls)}

@@ -5,10 +5,11 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from sedfiber.core.array_types import Array
-from sedfiber.figures.falls import Fall
+from sedfiber.figures.falls import plane_path, plane_shapes
 from sedfiber.figures.films.film import Beads, Film, RunningCurve, add_panel, blank_film, frame_samples
 from sedfiber.figures.style import B_SYMBOL, BLACK, BLUE, GREY, ORANGE, VERMILION
 from sedfiber.reduced.measures import forecast_error
+from sedfiber.simulation.trajectory import Trajectory
 
 _HEIGHT = 5.1  # inches
 _CLOSE_UP = (0.42, 1.6, 3.1, 3.1)  # left, bottom, width and height of each panel, in inches
@@ -20,7 +21,7 @@ _REACH = 1.12  # of L/2, on each side of the centre bead
 _LEAST_E = 1e-16  # smaller errors are drawn here
 
 
-def film_forecast(truth: Fall, forecast: Fall) -> Film:
+def film_forecast(truth: Trajectory, forecast: Trajectory) -> Film:
     """Left: true fiber and forecast in the frame that falls with the true centre bead.  Right: the whole fall.
     Below: E(t) and its two parts.  Raises InputError when the two do not have the same samples."""
     errors = _errors(truth, forecast)
@@ -38,19 +39,18 @@ def film_forecast(truth: Fall, forecast: Fall) -> Film:
             part.show(sample)
 
     moving = [clock, *close_up.artists, *path.lines, *(curve.line for curve in curves)]
-    return Film(figure, moving, frame_samples(truth.t, truth.shapes), show)
+    return Film(figure, moving, frame_samples(truth.t, plane_shapes(truth)), show)
 
 
 class _CloseUp:
     """Beads to scale, relative to the true centre bead: the true ones black, the forecast's smaller over them."""
 
-    def __init__(self, axes: Axes, truth: Fall, forecast: Fall) -> None:
+    def __init__(self, axes: Axes, truth: Trajectory, forecast: Trajectory) -> None:
         reach = _REACH * 0.5 * truth.length
         axes.set(xlim=(-reach, reach), ylim=(-reach, reach))
         axes.set_title("relative to the true centre bead / a", loc="left", fontsize=7.5)
-        self._shapes = [fall.positions[..., :2] - truth.centre[:, None] for fall in (truth, forecast)]
-        n_beads = truth.positions.shape[1]
-        self._beads = [Beads(axes, n_beads, 2.0, BLACK), Beads(axes, n_beads, 1.1, VERMILION)]
+        self._shapes = [fall.positions[..., :2] - plane_path(truth)[:, None] for fall in (truth, forecast)]
+        self._beads = [Beads(axes, truth.n_beads, 2.0, BLACK), Beads(axes, truth.n_beads, 1.1, VERMILION)]
         self.artists = [beads.artist for beads in self._beads]
         handles = [Line2D([], [], color=color, marker="o", linestyle="", markersize=size) for color, size in _KEYS]
         axes.legend(handles=handles, labels=["true", "forecast"], loc="upper left", handletextpad=0.1)
@@ -64,8 +64,8 @@ class _CloseUp:
 class _Path:
     """The true centre bead's whole path at one scale, and both fibers at their places."""
 
-    def __init__(self, axes: Axes, truth: Fall, forecast: Fall) -> None:
-        x, y = truth.centre.T
+    def __init__(self, axes: Axes, truth: Trajectory, forecast: Trajectory) -> None:
+        x, y = plane_path(truth).T
         axes.plot(x, y, color=GREY, linewidth=0.8)
         low = min(y.min(), forecast.centre[:, 1].min()) - 0.5 * truth.length
         high = y.max() + 0.5 * truth.length
@@ -83,14 +83,14 @@ class _Path:
             line.set_data(*beads[sample].T)
 
 
-def _errors(truth: Fall, forecast: Fall) -> dict[str, Array]:
+def _errors(truth: Trajectory, forecast: Trajectory) -> dict[str, Array]:
     """E and its parts at every sample, (T,) each; there are none at t = 0."""
     error = forecast_error(truth.positions, forecast.positions)
     parts = {"E": error.total, r"$E_\mathrm{shape}$": error.shape, r"$E_\mathrm{pos}$": error.position}
     return {name: np.concatenate([[np.nan], np.maximum(part, _LEAST_E)]) for name, part in parts.items()}
 
 
-def _draw_errors(axes: Axes, truth: Fall, errors: dict[str, Array]) -> list[RunningCurve]:
+def _draw_errors(axes: Axes, truth: Trajectory, errors: dict[str, Array]) -> list[RunningCurve]:
     axes.set(yscale="log", xlim=(0.0, truth.t[-1]), xlabel="time / (a/U$_s$)")
     axes.xaxis.labelpad = 1.0
     colors = (BLACK, BLUE, ORANGE)
@@ -102,5 +102,5 @@ def _draw_errors(axes: Axes, truth: Fall, errors: dict[str, Array]) -> list[Runn
     return curves
 
 
-def _title(truth: Fall) -> str:
+def _title(truth: Trajectory) -> str:
     return f"{B_SYMBOL} = {truth.B:g}, k = {truth.angle_index}, test set {truth.split}"

@@ -84,8 +84,7 @@ def _place_views(figure: Figure, sizes: Array) -> list[Axes]:
 
 
 def _draw_extension(axes: Axes, run: Trajectory) -> list[RunningCurve]:
-    length = 2.0 * run.n_beads
-    ends = np.linalg.norm(run.fibers[:, :, -1] - run.fibers[:, :, 0], axis=-1).T / length
+    ends = np.linalg.norm(run.fibers[:, :, -1] - run.fibers[:, :, 0], axis=-1).T / run.length
     last = max(run.t[-1], run.t[0] + 1e-9)  # a run of one sample has no duration
     axes.set(xlim=(run.t[0], last), ylim=(0.0, 1.05), xlabel="time / (a/U$_s$)")
     axes.set_title("end-to-end distance / L", loc="left", fontsize=7.5, pad=3.0)

@@ -9,7 +9,7 @@ from torch import Tensor
 
 from sedfiber.core.array_types import Array
 from sedfiber.reduced.autoencoder import Autoencoder
-from sedfiber.reduced.dataset import Dataset, Trajectory
+from sedfiber.reduced.dataset import Dataset, SettlingFall
 from sedfiber.reduced.neural_ode import N_CENTRE
 from sedfiber.reduced.scaling import residual_history
 from sedfiber.reduced.training.sampling import path_coordinate, path_even_indices
@@ -63,7 +63,7 @@ def encode_samples(training: Dataset, encoder: Autoencoder, count: int) -> Encod
     )
 
 
-def _columns(trajectory: Trajectory, encoder: Autoencoder) -> dict[str, Array]:
+def _columns(trajectory: SettlingFall, encoder: Autoencoder) -> dict[str, Array]:
     scales = encoder.scales
     residual = torch.tensor(residual_history(trajectory, scales))
     context = encoder.context_of(trajectory.B, trajectory.terminal).expand(len(residual), -1)

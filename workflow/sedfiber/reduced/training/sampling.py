@@ -11,7 +11,7 @@ where the small share κ of the centre's motion bounds the time between two samp
 import numpy as np
 
 from sedfiber.core.array_types import Array
-from sedfiber.reduced.dataset import Trajectory
+from sedfiber.reduced.dataset import SettlingFall
 from sedfiber.reduced.scaling import Scales, residual_history
 
 # The centre travels 10 to 100 half lengths, the shape 0.3 to 8; 0.02 keeps the centre's
@@ -19,7 +19,7 @@ from sedfiber.reduced.scaling import Scales, residual_history
 CENTRE_SHARE = 0.02
 
 
-def path_coordinate(trajectory: Trajectory, scales: Scales) -> Array:
+def path_coordinate(trajectory: SettlingFall, scales: Scales) -> Array:
     """Path length from the start to each stored sample, shape (T,), units L/2."""
     shape_steps = np.diff(residual_history(trajectory, scales), axis=0)
     centre_steps = np.diff(scales.centre(trajectory.positions), axis=0)
@@ -27,7 +27,7 @@ def path_coordinate(trajectory: Trajectory, scales: Scales) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.sqrt(squared))])
 
 
-def path_even_indices(trajectory: Trajectory, scales: Scales, count: int) -> Array:
+def path_even_indices(trajectory: SettlingFall, scales: Scales, count: int) -> Array:
     """Indices of the ``count`` stored samples nearest to an even division of the path.
 
     Shape (count,), ascending, first and last sample included. Stored samples are taken

@@ -15,7 +15,7 @@ from sedfiber.scene.scene import Scene
 from sedfiber.simulation.equilibria.steady import terminal_state
 from sedfiber.simulation.run import simulate
 from sedfiber.study.angles import angle_of
-from sedfiber.study.costs.falls import Fall, Integrated
+from sedfiber.study.costs.fall_problem import FallProblem, Integrated
 from sedfiber.study.costs.machine import machine_columns
 from sedfiber.study.costs.power_law import fit_power_law
 from sedfiber.study.costs.timing import timed_run, timed_together
@@ -48,7 +48,7 @@ _STEP = 0.1  # a/U_s, in the Newton matrix I − h J: what it costs to factorise
 class _Rest:
     """Where a fall ends: the terminal shape over L, or the last where there is none, (N, 3); speed in U_s."""
 
-    fall: Fall
+    fall: FallProblem
     shape: Positions
     speed: float
     settling_time: float | None
@@ -100,7 +100,7 @@ def _rest(n_beads: int, mobility: str, rpy: _Rest | None) -> _Rest:
     if not scene.has_terminal_shape and rpy is None:
         raise NumericalError(f"{mobility} ends with the settling time of RPY, which does not settle")
     run = simulate(scene) if scene.has_terminal_shape else simulate(scene, t_end=rpy.fall.times[-1])
-    fall = Fall(scene, len(run.t))
+    fall = FallProblem(scene, len(run.t))
     last = fall.system.to_state(run.positions[-1, :, : scene.dim])
     if scene.has_terminal_shape:
         terminal = terminal_state(scene)

@@ -16,7 +16,7 @@ from sedfiber.scene.scene import Scene
 from sedfiber.simulation.differences import largest_distance
 from sedfiber.simulation.run import simulate
 from sedfiber.study.angles import angle_of
-from sedfiber.study.costs.falls import COUNTED, Fall, Integrated, OutOfTime
+from sedfiber.study.costs.fall_problem import COUNTED, FallProblem, Integrated, OutOfTime
 from sedfiber.study.costs.machine import machine_columns
 from sedfiber.study.costs.methods import ANALYTIC, METHODS, Method, by_ours
 from sedfiber.study.costs.timing import timed_run
@@ -46,7 +46,7 @@ def measure_integrators(
     that was integrated; ``seconds_whole_fall`` scales the least time up to the whole.
     """
     scene = Scene(B, angle_of(angle_index), n_beads)
-    fall = Fall(scene, len(simulate(scene).t))
+    fall = FallProblem(scene, len(simulate(scene).t))
     references = _References.of(fall)
     facts = {"B": scene.B, "angle_index": angle_index, "theta0": scene.theta0}
     ends = {"reference_agreement": references.agreement, **machine_columns()}
@@ -66,20 +66,20 @@ class _References:
     agreement: float
 
     @classmethod
-    def of(cls, fall: Fall) -> "_References":
+    def of(cls, fall: FallProblem) -> "_References":
         runs = {name: by_ours(name, ANALYTIC, fall, REFERENCE, float("inf")) for name in ("Radau", "LSODA", "BDF")}
         radau, *others = (run.positions for run in runs.values())
         apart = [largest_distance(radau, other, fall.scene.length) for other in others]
         return cls(radau, others[apart.index(min(apart))], min(apart))
 
-    def error(self, method: Method, fall: Fall, run: Integrated) -> float:
+    def error(self, method: Method, fall: FallProblem, run: Integrated) -> float:
         """Of a run, over the samples that it has; never measured against its own method."""
         reference = self.other if method.name == "Radau" else self.radau
         return largest_distance(run.positions, reference[: len(run.positions)], fall.scene.length)
 
 
 def _rows(
-    method: Method, fall: Fall, references: _References, tolerances: tuple[float, ...], seconds: float
+    method: Method, fall: FallProblem, references: _References, tolerances: tuple[float, ...], seconds: float
 ) -> Iterator[dict[str, Any]]:
     """From the loosest tolerance on; once a run takes too long, tighter ones are not tried."""
     too_long = None
@@ -99,7 +99,9 @@ def _rows(
             yield head | _omitted(str(error), time.perf_counter() - begun)
 
 
-def _measured(method: Method, fall: Fall, references: _References, tolerance: float, seconds: float) -> dict[str, Any]:
+def _measured(
+    method: Method, fall: FallProblem, references: _References, tolerance: float, seconds: float
+) -> dict[str, Any]:
     timing = timed_run(lambda: method.integrate(fall, tolerance, seconds), fall.rhs)
     run: Integrated = timing.returned
     part = (len(run.positions) - 1) / (fall.samples - 1)

@@ -15,7 +15,7 @@ from sedfiber.physics.integrators.base import FIRST_STEP, LONGEST_FIRST
 from sedfiber.physics.system import System
 from sedfiber.scene.assembly import assemble
 from sedfiber.study.costs import source_setup
-from sedfiber.study.costs.falls import Fall, Integrated, OutOfTime
+from sedfiber.study.costs.fall_problem import FallProblem, Integrated, OutOfTime
 
 ANALYTIC, DIFFERENCES, NONE = "analytic", "differences", "none"
 SOME, FEW = 2, 4  # every second tolerance for what takes some times as long as the default, every fourth for the rest
@@ -31,7 +31,7 @@ class Method:
 
     name: str
     jacobian: str
-    integrate: Callable[[Fall, float, float], Integrated]
+    integrate: Callable[[FallProblem, float, float], Integrated]
     every: int = 1
     own_tolerance: float | None = None
 
@@ -62,14 +62,16 @@ class WithoutJacobian:
         return self._system.loss_of_definiteness(y)
 
 
-def by_ours(name: str, jacobian: str, fall: Fall, tolerance: float, seconds: float) -> Integrated:
+def by_ours(name: str, jacobian: str, fall: FallProblem, tolerance: float, seconds: float) -> Integrated:
     """One of the package's own integrators."""
     system = assemble(fall.scene)
     equations = system if jacobian == ANALYTIC else WithoutJacobian(system)
     return fall.by_integrator(INTEGRATORS[name](equations, Tolerances(tolerance, tolerance)), seconds)
 
 
-def by_solve_ivp(solver: type[OdeSolver], jacobian: str, fall: Fall, tolerance: float, seconds: float) -> Integrated:
+def by_solve_ivp(
+    solver: type[OdeSolver], jacobian: str, fall: FallProblem, tolerance: float, seconds: float
+) -> Integrated:
     """``scipy.integrate.solve_ivp``; implicit solvers begin with the same short step as ours."""
     system, counters = assemble(fall.scene), Counters()
     options = {}
@@ -93,7 +95,7 @@ def by_solve_ivp(solver: type[OdeSolver], jacobian: str, fall: Fall, tolerance: 
     return Integrated(system.to_positions(found.y.T), counters)
 
 
-def by_source_setup(fall: Fall, tolerance: float, seconds: float) -> Integrated:
+def by_source_setup(fall: FallProblem, tolerance: float, seconds: float) -> Integrated:
     """The source's set-up, as far through the fall as the seconds last; its tolerances are its own."""
     run = source_setup.SourceSetup(fall.scene.modulus).run(fall.start_positions, fall.samples, fall.interval, seconds)
     return Integrated(run.positions, Counters(run.steps, run.rhs))

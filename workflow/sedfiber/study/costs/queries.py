@@ -6,12 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from sedfiber.core.array_types import History
-from sedfiber.reduced.dataset import Trajectory
+from sedfiber.reduced.dataset import SettlingFall
 from sedfiber.reduced.measures import forecast_error
 from sedfiber.scene.numerics import Numerics
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.differences import largest_distance
-from sedfiber.study.costs.falls import Fall
+from sedfiber.study.costs.fall_problem import FallProblem
 
 REFERENCE = Numerics("BDF", 1e-9, 1e-9)
 
@@ -20,8 +20,8 @@ REFERENCE = Numerics("BDF", 1e-9, 1e-9)
 class Query:
     """One test trajectory: ``fall`` to its settling time, and what it should be, ``truth`` (T, N, 3)."""
 
-    trajectory: Trajectory
-    fall: Fall
+    trajectory: SettlingFall
+    fall: FallProblem
     truth: History
 
     @property
@@ -42,17 +42,17 @@ class Query:
         return np.pad(np.asarray(positions, dtype=float), ((0, 0), (0, 0), (0, missing)))
 
 
-def queries(trajectories: Iterable[Trajectory], hydrodynamics: str = Scene.hydrodynamics) -> list[Query]:
+def queries(trajectories: Iterable[SettlingFall], hydrodynamics: str = Scene.hydrodynamics) -> list[Query]:
     """Each trajectory integrated again by BDF at 1e-9, to measure simulations against."""
     falls = [(one, _fall(one, hydrodynamics)) for one in trajectories]
     return [Query(one, fall, fall.by_numerics(REFERENCE).positions) for one, fall in falls]
 
 
-def stored_queries(trajectories: Iterable[Trajectory], hydrodynamics: str = Scene.hydrodynamics) -> list[Query]:
+def stored_queries(trajectories: Iterable[SettlingFall], hydrodynamics: str = Scene.hydrodynamics) -> list[Query]:
     """Each trajectory as it is stored, which is right to 1e-6 L: enough for forecasts."""
     return [Query(one, _fall(one, hydrodynamics), one.positions) for one in trajectories]
 
 
-def _fall(one: Trajectory, hydrodynamics: str) -> Fall:
+def _fall(one: SettlingFall, hydrodynamics: str) -> FallProblem:
     scene = Scene(one.B, one.theta0, len(one.terminal), hydrodynamics=hydrodynamics)
-    return Fall(scene, len(one.t), float(one.t[1]))
+    return FallProblem(scene, len(one.t), float(one.t[1]))

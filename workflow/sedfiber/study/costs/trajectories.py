@@ -10,7 +10,7 @@ from sedfiber.scene.scene import Scene
 from sedfiber.simulation.differences import largest_distance
 from sedfiber.simulation.run import simulate
 from sedfiber.study.angles import angle_of
-from sedfiber.study.costs.falls import Fall, Integrated
+from sedfiber.study.costs.fall_problem import FallProblem, Integrated
 from sedfiber.study.costs.machine import machine_columns
 from sedfiber.study.costs.timing import timed_run
 
@@ -43,7 +43,7 @@ def _rows(B: float, angle_index: int, tolerances: list[float], n_beads: int) -> 
     begun = time.perf_counter()
     complete = simulate(scene)
     seconds = time.perf_counter() - begun
-    fall = Fall(scene, len(complete.t))
+    fall = FallProblem(scene, len(complete.t))
     facts = {
         "B": scene.B,
         "angle_index": angle_index,
@@ -55,7 +55,7 @@ def _rows(B: float, angle_index: int, tolerances: list[float], n_beads: int) -> 
         yield facts | _measured(fall, tolerance) | {"simulate_seconds": seconds}
 
 
-def _measured(fall: Fall, tolerance: float) -> dict[str, Any]:
+def _measured(fall: FallProblem, tolerance: float) -> dict[str, Any]:
     numerics = Numerics(rtol=tolerance, atol=tolerance)
     tighter = replace(numerics, rtol=TIGHTER * tolerance, atol=TIGHTER * tolerance)
     timing = timed_run(lambda: fall.by_numerics(numerics), fall.rhs)

@@ -10,7 +10,7 @@ import numpy as np
 import torch
 
 from sedfiber.reduced.autoencoder import Autoencoder
-from sedfiber.reduced.dataset import Dataset, Trajectory
+from sedfiber.reduced.dataset import Dataset, SettlingFall
 from sedfiber.reduced.model_files import save_forecast_model
 from sedfiber.reduced.torch_forecast import ForecastModel
 from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
@@ -88,10 +88,12 @@ def simulated(n_beads: int, B_values: tuple[float, ...], angle_indices: tuple[in
     return Dataset(tuple(_simulated(n_beads, B, index) for B in B_values for index in angle_indices))
 
 
-def _simulated(n_beads: int, B: float, index: int) -> Trajectory:
+def _simulated(n_beads: int, B: float, index: int) -> SettlingFall:
     run, steady = simulate(Scene(B, angle_of(index), n_beads)), steady_state(B, n_beads)
-    angle = run.metadata["scene"]["start_angle"]
-    return Trajectory(B, index, angle, "train", run.t, run.positions, steady.positions, steady.velocity)
+    keys = {"split": "train", "angle_index": index}
+    return SettlingFall(
+        run.t, run.positions, run.metadata | keys, terminal=steady.positions, terminal_velocity=steady.velocity
+    )
 
 
 @cache
@@ -104,14 +106,14 @@ def _autoencoder() -> Autoencoder:
     return train_autoencoder(_sound(), "decoder", 2, 0, AUTOENCODER)
 
 
-def _spoilt(**changes: np.ndarray) -> tuple[Dataset, Trajectory]:
+def _spoilt(**changes: np.ndarray) -> tuple[Dataset, SettlingFall]:
     """The data set with one trajectory changed, and that trajectory."""
     all_of_them = list(_sound())
     all_of_them[SPOILT] = replace(all_of_them[SPOILT], **changes)
     return Dataset(tuple(all_of_them)), all_of_them[SPOILT]
 
 
-def _named(training: Dataset, spoilt: Trajectory) -> Iterable[Measurement]:
+def _named(training: Dataset, spoilt: SettlingFall) -> Iterable[Measurement]:
     """Every training must refuse the data set in one line that names the spoilt trajectory."""
     trainings = {
         "autoencoder": partial(train_autoencoder, training, "decoder", 2, 0, AUTOENCODER),

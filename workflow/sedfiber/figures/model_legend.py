@@ -1,4 +1,4 @@
-"""How each forecaster is named and marked: the same in every figure that compares them."""
+"""How each model is named and marked: the same in every figure that compares them."""
 
 import math
 from collections import Counter
@@ -20,7 +20,7 @@ LOOKS = {
 }
 
 
-class Forecaster(NamedTuple):
+class LegendEntry(NamedTuple):
     """One entry of a legend; ``model`` is its name in the tables."""
 
     model: str
@@ -30,7 +30,7 @@ class Forecaster(NamedTuple):
     marker: str
 
 
-def forecasters(table: pd.DataFrame) -> list[Forecaster]:
+def legend_entries(table: pd.DataFrame) -> list[LegendEntry]:
     """Every model of a table with columns model, recipe and latent_dim: ours by d, the source's, the lookup.
 
     Raises InputError for an unknown recipe, or more models of one recipe than can be told apart.
@@ -42,7 +42,7 @@ def forecasters(table: pd.DataFrame) -> list[Forecaster]:
     for recipe, latent_dim, model in rows:
         color, marker = _look(recipe, used[recipe])
         used[recipe] += 1
-        found.append(Forecaster(model, recipe, _label(recipe, latent_dim), color, marker))
+        found.append(LegendEntry(model, recipe, _label(recipe, latent_dim), color, marker))
     return found
 
 

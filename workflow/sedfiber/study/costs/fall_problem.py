@@ -39,7 +39,7 @@ class Integrated:
 
 
 @dataclass(frozen=True)
-class Fall:
+class FallProblem:
     """What is integrated: ``samples`` states of ``scene``, every ``interval`` a/U_s from its start."""
 
     scene: Scene
