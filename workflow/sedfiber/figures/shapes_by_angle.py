@@ -1,18 +1,24 @@
 """The falls of one ℬ from every angle: how the fiber turns and bends, always to the same shape."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sedfiber.figures.falls import Fall, add_time_bar, draw_shapes, snapshots, time_colors
+from sedfiber.figures.falls import Fall, add_time_bar, draw_shapes, falls_where, read_falls, snapshots, time_colors
 from sedfiber.figures.style import B_SYMBOL, BLACK, PAGE_WIDTH, VERMILION
 from sedfiber.study.angles import ANGLES_PER_HALF_TURN
 
 SNAPSHOTS = 12  # of each fall, the first and the last among them
 COLUMNS = 6
 _MARGIN = 2.5  # a, around the shapes
+
+
+def draw(dataset: Path, B: float) -> Figure:
+    """The falls of a data set at one ℬ."""
+    return draw_shapes_by_angle(falls_where(read_falls(dataset), "B", B))
 
 
 def draw_shapes_by_angle(falls: list[Fall]) -> Figure:
