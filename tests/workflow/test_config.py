@@ -108,11 +108,17 @@ def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
     names = {str(path.relative_to(PACKAGE)) for path in module_sources(command_module("simulate"))}
     assert {"physics/bending.py", "physics/pair_mobility.py", "scene/scene.py", "commands/simulate.py"} <= names
     assert not any(name.startswith(("reduced", "figures")) for name in names)
-    drawn = {str(path.relative_to(PACKAGE)) for path in module_sources(command_module("plot_baselines"))}
+    drawn = {str(path.relative_to(PACKAGE)) for path in module_sources("figures.baselines")}
     assert "figures/style.py" in drawn
     assert not any(name.startswith(("reduced", "physics")) for name in drawn)
 
 
+FIGURES = yaml.safe_load((REPOSITORY / "workflow/report/figures.yaml").read_text(encoding="utf-8"))
+# the modules that a command imports by name when it runs
+BY_NAME = {
+    "measure_hard_case": [f"study.hard_cases.{case.module}" for case in CASES],
+    "draw": [f"figures.{about.get('module', name)}" for name, about in FIGURES.items()],
+}
 # where the import's name is not the package's
 OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml", "PIL": "pillow"}
 
@@ -126,17 +132,11 @@ OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml", "PIL": "p
         ("analysis", ["trace_states", "tabulate_hard_cases", "tabulate_costs"]),
         ("analysis", ["measure_integrators", "measure_trajectories", "measure_discretisation"]),
         ("learning", ["measure_choices", "measure_models", "measure_model_growth"]),
-        ("figures", ["plot_cost_integrators", "plot_cost_physics", "plot_cost_models", "plot_cost_decision"]),
-        ("figures", ["plot_scene", "plot_effects", "plot_third_dimension", "plot_states", "plot_hard_cases"]),
         ("learning", ["train_autoencoder", "train_node", "forecast_test_set", "tabulate_forecast_errors"]),
         ("learning", ["measure_hard_case"]),
         ("learning", ["tabulate_lags"]),
         ("analysis", ["tabulate_regimes", "tabulate_key_numbers", "show_table", "show_manifest", "compare_published"]),
-        ("figures", ["plot_problem", "plot_shapes_by_angle", "plot_centre_paths", "plot_shapes_by_flexibility"]),
-        ("figures", ["plot_data_sets", "plot_model_diagram", "plot_reconstruction", "plot_forecast_errors"]),
-        ("figures", ["plot_forecast_shapes", "plot_forecast_paths", "plot_contact_sheet", "plot_lags"]),
-        ("figures", ["plot_baselines", "plot_error_distribution", "film_forecast", "film_scene"]),
-        ("figures", ["make_explorer"]),
+        ("figures", ["draw", "film_forecast", "film_scene", "make_explorer"]),
     ],
 )
 def test_conda_environments_hold_what_their_commands_import(environment, commands):
@@ -144,11 +144,8 @@ def test_conda_environments_hold_what_their_commands_import(environment, command
     listed = yaml.safe_load((REPOSITORY / f"envs/{environment}.yaml").read_text())["dependencies"][-1]["pip"]
     available = {package.partition("==")[0] for package in listed}
     for command in commands:
-        by_name = [f"hard_cases.{case.module}" for case in CASES] if command == "measure_hard_case" else []
-        for path in {
-            *module_sources(command_module(command)),
-            *(path for module in by_name for path in module_sources(module)),
-        }:
+        modules = [command_module(command), *BY_NAME.get(command, [])]
+        for path in {path for module in modules for path in module_sources(module)}:
             foreign = {OUTSIDE.get(name, name) for name in _imported(path) - set(sys.stdlib_module_names)}
             assert foreign - {"sedfiber"} <= available, f"{path.name} of {command}"
 

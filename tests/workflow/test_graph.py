@@ -7,16 +7,16 @@ pytestmark = pytest.mark.slow
 AFTER_EVERYTHING = {"tabulate_timings", "write_manifest", "show_table", "show_manifest"}
 ERRORS = {"tabulate_forecast_errors", "tabulate_lags"}
 FORECAST_FIGURES = {
-    f"plot_{name}"
+    f"draw_{name}"
     for name in ("forecast_shapes_A", "forecast_shapes_B", "forecast_paths", "forecast_errors", "contact_sheet")
-} | {"plot_error_distribution", "plot_baselines", "plot_lags"}
+} | {"draw_error_distribution", "draw_baselines", "draw_lags"}
 STUDY_FIGURES = {
-    f"plot_{name}" for name in ("problem", "shapes_by_angle", "centre_paths", "shapes_by_flexibility", "data_sets")
+    f"draw_{name}" for name in ("problem", "shapes_by_angle", "centre_paths", "shapes_by_flexibility", "data_sets")
 }
-FIGURES = STUDY_FIGURES | {"plot_model_diagram", "plot_reconstruction"} | FORECAST_FIGURES
+FIGURES = STUDY_FIGURES | {"draw_model_diagram", "draw_reconstruction"} | FORECAST_FIGURES
 EXPLORER = {"make_explorer"}
 CHOICE = {"solve_terminal_curve", "choose_forecast_model"}
-MODELS = {"train_autoencoder", "tabulate_reconstruction", "plot_reconstruction", "train_node"} | CHOICE
+MODELS = {"train_autoencoder", "tabulate_reconstruction", "draw_reconstruction", "train_node"} | CHOICE
 FORECASTS = {"forecast_test_set", "forecast_by_lookup"}
 
 
@@ -43,14 +43,14 @@ def test_the_full_study_has_a_job_for_every_simulation_and_model(full):
         ("films", {"film_forecast", "film_scene"}),
         ("explorer", EXPLORER),
         ("check_simulations", {"check_simulation", "tabulate_checks"}),
-        ("scenes", {"simulate_scene", "plot_scene", "tabulate_scene_audit"}),
-        ("third_dimension", {"compare_third_dimension", "plot_third_dimension"}),
-        ("states", {"trace_states", "plot_states"}),
-        ("hard_cases", {"measure_hard_case", "tabulate_hard_cases", "plot_hard_cases"}),
-        ("effects", {"measure_effects", "plot_effects", "benchmark_parts"}),
+        ("scenes", {"simulate_scene", "draw_scene", "tabulate_scene_audit"}),
+        ("third_dimension", {"compare_third_dimension", "draw_third_dimension"}),
+        ("states", {"trace_states", "draw_states"}),
+        ("hard_cases", {"measure_hard_case", "tabulate_hard_cases", "draw_hard_cases"}),
+        ("effects", {"measure_effects", "draw_effects", "benchmark_parts"}),
         ("cost", {"measure_integrators", "measure_trajectories", "measure_discretisation", "measure_choices"}),
         ("cost", {"train_short_node", "measure_models", "measure_model_growth", "tabulate_costs"}),
-        ("cost", {"plot_cost_integrators", "plot_cost_physics", "plot_cost_models", "plot_cost_decision"}),
+        ("cost", {"draw_cost_integrators", "draw_cost_physics", "draw_cost_models", "draw_cost_decision"}),
     ],
 )
 def test_target_rules_make_their_stage(empty, target, last):
@@ -63,7 +63,7 @@ def test_target_rules_make_their_stage(empty, target, last):
 def test_a_stage_plans_nothing_beyond_itself(empty):
     """Asking for the simulations must not start a training."""
     assert set(empty.planned("simulations")) == {"simulate", "tabulate_trajectories", "tabulate_audit"}
-    assert set(empty.planned("scenes")) == {"simulate_scene", "plot_scene", "tabulate_scene_audit"}
+    assert set(empty.planned("scenes")) == {"simulate_scene", "draw_scene", "tabulate_scene_audit"}
     assert set(empty.planned("dataset")) == {"simulate", "aggregate_dataset", "solve_terminal_shapes"}
     assert not {"train_node", "forecast_test_set"} & set(empty.planned("autoencoders"))
 
@@ -83,7 +83,7 @@ def test_every_file_in_scenes_is_a_scene(empty):
     """A user's own file in scenes/ is run and drawn like the examples, with a hyphen in its name too."""
     scenes = empty.folder / "scenes"
     examples = len(list(scenes.glob("*.yaml")))
-    assert empty.planned("scenes")["simulate_scene"] == empty.planned("scenes")["plot_scene"] == examples
+    assert empty.planned("scenes")["simulate_scene"] == empty.planned("scenes")["draw_scene"] == examples
     text = (scenes / "study.yaml").read_text(encoding="utf-8")
     (scenes / "my-own.yaml").write_text(text.replace("B: 1000", "B: 1200"), encoding="utf-8")
     assert empty.planned("scenes")["simulate_scene"] == examples + 1
@@ -167,7 +167,7 @@ def test_an_edited_learning_module_keeps_the_simulations(rerun):
 def test_an_edited_figure_module_redraws_only_that_figure(rerun):
     """Tables stay; timings and manifest follow, which hold the figure's time and checksum, and their pages."""
     rerun.append("workflow/sedfiber/figures/baselines.py", "EDITED = 1")
-    assert set(rerun.planned()) == {"plot_baselines"} | AFTER_EVERYTHING
+    assert set(rerun.planned()) == {"draw_baselines"} | AFTER_EVERYTHING
 
 
 def test_the_style_of_figures_redraws_all_of_them(rerun):
@@ -182,8 +182,8 @@ def test_the_neural_odes_learning_rate_reruns_them_and_what_follows(rerun):
     planned = rerun.planned()
     assert planned["train_node"] == 1
     assert planned["forecast_test_set"] == 2
-    assert not (STUDY_FIGURES | {"plot_reconstruction", "train_autoencoder", "simulate"}) & set(planned)
-    assert {"choose_forecast_model", "plot_model_diagram", "tabulate_key_numbers"} | EXPLORER <= set(planned)
+    assert not (STUDY_FIGURES | {"draw_reconstruction", "train_autoencoder", "simulate"}) & set(planned)
+    assert {"choose_forecast_model", "draw_model_diagram", "tabulate_key_numbers"} | EXPLORER <= set(planned)
     assert set(planned) >= ERRORS | FORECAST_FIGURES | AFTER_EVERYTHING
 
 
@@ -212,4 +212,4 @@ def test_each_figure_is_drawn_alone_from_the_files_that_are_there(rerun):
     for figure in figures:
         figure.unlink()
         name = f"results/figures/{figure.name}"
-        assert rerun.planned(name) == {f"plot_{figure.stem}": 1}
+        assert rerun.planned(name) == {f"draw_{figure.stem}": 1}

@@ -200,7 +200,7 @@ def benchmarks():
         "tabulate_regimes",
         "tabulate_lags",
         "tabulate_key_numbers",
-        *(f"plot_{figure}" for figure in STUDY_FIGURES),
+        *(f"draw/{name}" for name, about in FIGURES.items() if about["part"] == "study"),
         "make_explorer",
     ]
     return [f"results/benchmarks/{name}.tsv" for name in names]

@@ -218,78 +218,7 @@ rule measure_model_growth:
         " -o {output} > {log} 2>&1"
 
 
-use rule plot_problem as plot_cost_integrators with:
-    input:
-        table="results/tables/cost_integrators.csv",
-    output:
-        **drawn("cost_integrators"),
-    log:
-        "results/logs/plot_cost_integrators.log",
-    benchmark:
-        "results/benchmarks/plot_cost_integrators.tsv"
-    params:
-        code=code_of("plot_cost_integrators"),
-        call=drawn_from("plot_cost_integrators", "{table}"),
-    message:
-        "draw work against precision"
-
-
-use rule plot_problem as plot_cost_physics with:
-    input:
-        table="results/tables/cost_discretisation.csv",
-        growth="results/tables/cost_growth.csv",
-        model_growth="results/tables/cost_model_growth.csv",
-    output:
-        **drawn("cost_physics"),
-    log:
-        "results/logs/plot_cost_physics.log",
-    benchmark:
-        "results/benchmarks/plot_cost_physics.tsv"
-    params:
-        code=code_of("plot_cost_physics"),
-        call=drawn_from(
-            "plot_cost_physics", "{table}", "--growth {growth}", "--model-growth {model_growth}"
-        ),
-    message:
-        "draw what beads and hydrodynamics cost"
-
-
-use rule plot_problem as plot_cost_models with:
-    input:
-        table="results/tables/cost_models.csv",
-    output:
-        **drawn("cost_models"),
-    log:
-        "results/logs/plot_cost_models.log",
-    benchmark:
-        "results/benchmarks/plot_cost_models.tsv"
-    params:
-        code=code_of("plot_cost_models"),
-        call=drawn_from("plot_cost_models", "{table}"),
-    message:
-        "draw what models cost to train, and what they are worth"
-
-
-use rule plot_problem as plot_cost_decision with:
-    input:
-        table="results/tables/cost_forecast.csv",
-    output:
-        **drawn("cost_decision"),
-    log:
-        "results/logs/plot_cost_decision.log",
-    benchmark:
-        "results/benchmarks/plot_cost_decision.tsv"
-    params:
-        code=code_of("plot_cost_decision"),
-        call=drawn_from("plot_cost_decision", "{table}"),
-    message:
-        "draw what to choose for which accuracy"
-
-
 rule cost:
     input:
         rules.measure_trajectories.output,
-        rules.plot_cost_integrators.output,
-        rules.plot_cost_physics.output,
-        rules.plot_cost_models.output,
-        rules.plot_cost_decision.output,
+        figures_of("cost"),

@@ -49,22 +49,6 @@ rule tabulate_hard_cases:
         "sedfiber tabulate_hard_cases {input.cases} -o {output} > {log} 2>&1"
 
 
-use rule plot_problem as plot_hard_cases with:
-    input:
-        table="results/tables/hard_cases.csv",
-    output:
-        **drawn("hard_cases"),
-    log:
-        "results/logs/plot_hard_cases.log",
-    benchmark:
-        "results/benchmarks/plot_hard_cases.tsv"
-    params:
-        code=code_of("plot_hard_cases"),
-        call=drawn_from("plot_hard_cases", "{table}"),
-    message:
-        "draw how far every hard case stays from its bounds"
-
-
 rule hard_cases:
     input:
-        rules.plot_hard_cases.output,
+        figures_of("hard_cases"),

@@ -1,12 +1,34 @@
 # What the report shows: captions, categories and labels of figures and tables.
 
+from string import Template
+
 import yaml
 
 from sedfiber.study.published_comparison import COMPARED
 
-FIGURES = yaml.safe_load((BASE / "workflow/report/figures.yaml").read_text(encoding="utf-8"))
-# The figures that `all` makes; the others belong to target rules of their own.
-STUDY_FIGURES = [name for name, about in FIGURES.items() if about["category"][0] in "123"]
+# The errors of each recipe's models.
+ERRORS_TABLES = {
+    "rollout": "results/tables/forecast_errors.csv",
+    "source": "results/tables/forecast_errors_source_recipe.csv",
+}
+
+
+def listed_figures():
+    """The entries of report/figures.yaml, with defaults, and with the study's values in place of their $names."""
+    shown = NODES[FORECAST_MODEL]
+    text = (BASE / "workflow/report/figures.yaml").read_text(encoding="utf-8")
+    filled = Template(text).substitute(
+        B=STUDY.shown_fall[0],
+        angle_index=STUDY.shown_fall[1],
+        forecast_model=FORECAST_MODEL,
+        latent_dim=shown["latent_dim"],
+        errors_table=ERRORS_TABLES[shown["recipe"]],
+    )
+    listed = yaml.safe_load(filled).items()
+    return {name: {"module": name, "file": name, "options": {}} | about for name, about in listed}
+
+
+FIGURES = listed_figures()
 KEY_NUMBERS = "0. Key numbers"
 TABLES_CATEGORY = "4. Tables"
 PROVENANCE = "5. Provenance"
@@ -29,16 +51,26 @@ STUDY_TABLES = [
 PUBLISHED_TABLES = list(dict.fromkeys(one.table for one in COMPARED))
 
 
-def drawn(figure):
+def drawn(about):
     """The two files of a figure, the SVG with caption, category and labels for the report."""
-    about = FIGURES[figure]
     shown = report(
-        f"results/figures/{figure}.svg",
-        caption=f"../report/{figure}.rst",
+        f"results/figures/{about['file']}.svg",
+        caption="../report/figure.rst",
         category=about["category"],
         labels={"figure": figure_label(about)},
     )
-    return {"svg": shown, "png": f"results/figures/{figure}.png"}
+    return {"svg": shown, "png": f"results/figures/{about['file']}.png"}
+
+
+def caption_of(about):
+    """For figure.rst. Snakemake compares no value that it makes from outputs: a reworded caption redraws nothing."""
+    return lambda wildcards, output: about["caption"]
+
+
+def figures_of(part):
+    """The files of all figures that belong to a target rule."""
+    files = [about["file"] for about in FIGURES.values() if about["part"] == part]
+    return expand("results/figures/{file}.{kind}", file=files, kind=["svg", "png"])
 
 
 def figure_label(about):
@@ -53,25 +85,9 @@ def shown_in(wildcards):
     return KEY_NUMBERS if wildcards.table == "key_numbers" else TABLES_CATEGORY
 
 
-def drawn_from(command, *words):
-    """The call of a figure's command: ``{name}`` in its words stands for the input of that name."""
-    return lambda wildcards, input: " ".join([command, *words]).format(**dict(input.items()))
-
-
 def forecasts_of(split):
     """A test set as the model forecasts it that the figures show."""
     return f"results/forecasts/{FORECAST_MODEL}/{split}.parquet"
-
-
-# What the figures of single forecasts read: true falls, the model's forecasts, and its errors.
-ERRORS_TABLE = {
-    "rollout": "results/tables/forecast_errors.csv",
-    "source": "results/tables/forecast_errors_source_recipe.csv",
-}[NODES[FORECAST_MODEL]["recipe"]]
-PAIRED = [
-    "--truth {truth} --forecasts {forecasts} --errors {table}",
-    f"--latent-dim {NODES[FORECAST_MODEL]['latent_dim']}",
-]
 
 
 def page_parts():

@@ -25,37 +25,6 @@ rule simulate_scene:
         "sedfiber simulate {params.file} -o {output} > {log} 2>&1"
 
 
-rule plot_scene:
-    input:
-        trajectory="results/scenes/{scene}.parquet",
-    output:
-        svg=report(
-            "results/figures/scenes/{scene}.svg",
-            caption="../report/scene.rst",
-            category="6. Beyond the study",
-            labels={"figure": "More: scene {scene}"},
-        ),
-        png="results/figures/scenes/{scene}.png",
-    log:
-        "results/logs/plot_scene/{scene}.log",
-    benchmark:
-        "results/benchmarks/plot_scene/{scene}.tsv"
-    conda:
-        "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
-    params:
-        code=code_of("plot_scene"),
-        title=lambda wildcards: wildcards.scene.replace("_", " "),
-    message:
-        "draw scene {wildcards.scene}"
-    shell:
-        "sedfiber plot_scene {input.trajectory} --title {params.title:q}"
-        " --svg {output.svg} --png {output.png} > {log} 2>&1"
-
-
 rule tabulate_scene_audit:
     input:
         trajectories=expand("results/scenes/{scene}.parquet", scene=SCENES),
@@ -110,26 +79,9 @@ rule compare_third_dimension:
         " -o {output.table} --growth {output.growth} > {log} 2>&1"
 
 
-use rule plot_problem as plot_third_dimension with:
-    input:
-        table="results/tables/third_dimension.csv",
-        growth="results/tables/third_dimension_growth.csv",
-    output:
-        **drawn("third_dimension"),
-    log:
-        "results/logs/plot_third_dimension.log",
-    benchmark:
-        "results/benchmarks/plot_third_dimension.tsv"
-    params:
-        code=code_of("plot_third_dimension"),
-        call=drawn_from("plot_third_dimension", "{table}", "--growth {growth}"),
-    message:
-        "draw where the third dimension begins to matter"
-
-
 rule third_dimension:
     input:
-        rules.plot_third_dimension.output,
+        figures_of("third_dimension"),
 
 
 rule measure_effects:
@@ -152,22 +104,6 @@ rule measure_effects:
         "measure cost and influence of every effect"
     shell:
         "sedfiber measure_effects {params.options} -o {output} > {log} 2>&1"
-
-
-use rule plot_problem as plot_effects with:
-    input:
-        table="results/tables/effects.csv",
-    output:
-        **drawn("effects"),
-    log:
-        "results/logs/plot_effects.log",
-    benchmark:
-        "results/benchmarks/plot_effects.tsv"
-    params:
-        code=code_of("plot_effects"),
-        call=drawn_from("plot_effects", "{table}"),
-    message:
-        "draw cost and influence of every effect"
 
 
 rule benchmark_parts:
@@ -193,5 +129,5 @@ rule benchmark_parts:
 
 rule effects:
     input:
-        rules.plot_effects.output,
+        figures_of("effects"),
         rules.benchmark_parts.output,

@@ -25,23 +25,6 @@ rule trace_states:
         " -o {output.table} --thresholds {output.thresholds} > {log} 2>&1"
 
 
-use rule plot_problem as plot_states with:
-    input:
-        table="results/tables/states.csv",
-        thresholds="results/tables/state_thresholds.csv",
-    output:
-        **drawn("states"),
-    log:
-        "results/logs/plot_states.log",
-    benchmark:
-        "results/benchmarks/plot_states.tsv"
-    params:
-        code=code_of("plot_states"),
-        call=drawn_from("plot_states", "{table}", "--thresholds {thresholds}"),
-    message:
-        "draw the steady states and where they are stable"
-
-
 rule states:
     input:
-        rules.plot_states.output,
+        figures_of("states"),

@@ -211,7 +211,7 @@ def test_help_lists_every_command(capsys):
 def test_a_wrong_command_is_answered_with_those_that_a_user_calls(capsys, argv, what):
     """Not with all seventy."""
     line = complaint(capsys, argv, 2)
-    assert what in line and "forecast" in line and "plot_lags" not in line
+    assert what in line and "forecast" in line and "tabulate_lags" not in line
 
 
 @pytest.mark.parametrize("command", ["simulate", "forecast"])

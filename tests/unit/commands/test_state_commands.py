@@ -1,8 +1,9 @@
-"""`trace_states` and `plot_states` on a fiber of seven beads: tables, figure, refusals."""
+"""`trace_states` and its figure on a fiber of seven beads: tables, figure, refusals."""
 
 import pandas as pd
 import pytest
 
+from figure_command import draw_words
 from sedfiber.commands.cli import main
 
 FEW = ["--n-beads", "7", "--B-min", "10", "--B-max", "2000", "--per-decade", "2"]
@@ -20,8 +21,8 @@ def trace(folder, words=FEW):
 
 def draw(folder):
     """Exit status of the command that draws them."""
-    files = ["--thresholds", folder / "thresholds.csv", "--svg", folder / "x.svg", "--png", folder / "x.png"]
-    return main(["plot_states", str(folder / "states.csv"), *map(str, files)])
+    inputs = {"table": folder / "states.csv", "thresholds": folder / "thresholds.csv"}
+    return main(draw_words("states", folder, inputs))
 
 
 @pytest.fixture(scope="module")

@@ -10,13 +10,13 @@ import pytest
 from matplotlib.figure import Figure
 from matplotlib.style import context
 
-from sedfiber.commands.cli import OneLineParser
-from sedfiber.commands.steps import plot_cost_decision, plot_cost_integrators, plot_cost_models, plot_cost_physics
+from figure_command import draw_words
+from sedfiber.commands.cli import main
 from sedfiber.core.errors import InputError
-from sedfiber.figures.cost_decision import draw_cost_decision
-from sedfiber.figures.cost_integrators import draw_cost_integrators
-from sedfiber.figures.cost_models import draw_cost_models
-from sedfiber.figures.cost_physics import draw_cost_physics
+from sedfiber.figures.cost_decision import draw as draw_cost_decision
+from sedfiber.figures.cost_integrators import draw as draw_cost_integrators
+from sedfiber.figures.cost_models import draw as draw_cost_models
+from sedfiber.figures.cost_physics import draw as draw_cost_physics
 from sedfiber.figures.style import RC_PARAMS
 
 MACHINE = {"machine": "Some CPU, 1 thread; Python 3.11, NumPy 2", "rhs_unit_s": 5.7e-6}
@@ -203,30 +203,24 @@ def test_any_family_may_be_missing(missing):
     assert len(figure.axes) == 3
 
 
-COMMANDS = {
-    plot_cost_integrators: {"table": integrators},
-    plot_cost_physics: {"table": discretisation, "--growth": growth, "--model-growth": model_growth},
-    plot_cost_models: {"table": models},
-    plot_cost_decision: {"table": decision},
+TABLES = {
+    "cost_integrators": {"table": integrators},
+    "cost_physics": {"table": discretisation, "growth": growth, "models": model_growth},
+    "cost_models": {"table": models},
+    "cost_decision": {"table": decision},
 }
 
 
 def test_commands_write_both_files_and_the_same_bytes_twice(tmp_path):
-    for module, tables in COMMANDS.items():
-        once = plotted(module, tables, tmp_path)
+    for figure, tables in TABLES.items():
+        once = plotted(figure, tables, tmp_path)
         assert once[0].startswith(b"<?xml") and once[1].startswith(b"\x89PNG")
-        if module is plot_cost_decision:
-            assert plotted(module, tables, tmp_path) == once
+        if figure == "cost_decision":
+            assert plotted(figure, tables, tmp_path) == once
 
 
-def plotted(module, tables: dict[str, Callable[[], pd.DataFrame]], folder: Path) -> tuple[bytes, bytes]:
-    given = []
-    for option, make in tables.items():
-        path = folder / f"{option.strip('-')}.csv"
-        make().to_csv(path, index=False)
-        given += [str(path)] if option == "table" else [option, str(path)]
-    svg, png = folder / "figure.svg", folder / "figure.png"
-    parser = OneLineParser()
-    module.add_arguments(parser)
-    module.run(parser.parse_args([*given, "--svg", str(svg), "--png", str(png)]))
-    return svg.read_bytes(), png.read_bytes()
+def plotted(figure: str, tables: dict[str, Callable[[], pd.DataFrame]], folder: Path) -> tuple[bytes, bytes]:
+    for name, make in tables.items():
+        make().to_csv(folder / f"{name}.csv", index=False)
+    assert main(draw_words(figure, folder, {name: folder / f"{name}.csv" for name in tables})) == 0
+    return (folder / "x.svg").read_bytes(), (folder / "x.png").read_bytes()

@@ -1,7 +1,5 @@
 """Every figure: both files appear, two renders are the same bytes, bad tables are one-line errors."""
 
-import argparse
-from importlib import import_module
 from itertools import product
 from pathlib import Path
 
@@ -9,6 +7,9 @@ import matplotlib
 import pandas as pd
 import pytest
 
+from figure_command import draw_words
+from sedfiber.commands.cli import OneLineParser
+from sedfiber.commands.steps import draw
 from sedfiber.core.errors import InputError
 
 MODELS = (("ours_2", "rollout", 2), ("ours_4", "rollout", 4), ("theirs", "source", 4), ("lookup", "lookup", None))
@@ -55,96 +56,93 @@ def effects() -> pd.DataFrame:
     return table(rows, "effect status reason rhs_ratio jacobian_ratio run_ratio shape_change_L speed_change_percent")
 
 
-# command: its table, its further options, a column it cannot do without
+# figure: its table, its further options, a column it cannot do without
 FIGURES = {
-    "plot_reconstruction": (reconstruction, [], "loss"),
-    "plot_forecast_errors": (ensemble_errors, ["--model", "ours_4"], "E_pos"),
-    "plot_baselines": (baselines, [], "E_median"),
-    "plot_error_distribution": (forecast_errors, [], "angle_index"),
-    "plot_effects": (effects, [], "shape_change_L"),
+    "reconstruction": (reconstruction, {}, "loss"),
+    "forecast_errors": (ensemble_errors, {"model": "ours_4"}, "E_pos"),
+    "baselines": (baselines, {}, "E_median"),
+    "error_distribution": (forecast_errors, {}, "angle_index"),
+    "effects": (effects, {}, "shape_change_L"),
 }
-each_figure = pytest.mark.parametrize("command", FIGURES)
+each_figure = pytest.mark.parametrize("figure", FIGURES)
 
 
-def plot(command: str, data: pd.DataFrame, folder: Path, options: list[str] | None = None) -> tuple[bytes, bytes]:
-    """Run a command on a table; returns the bytes of its SVG and its PNG."""
-    source, svg, png = folder / "table.csv", folder / "figure.svg", folder / "figure.png"
-    data.to_csv(source, index=False)
-    module = import_module(f"sedfiber.commands.steps.{command}")
-    parser = argparse.ArgumentParser()
-    module.add_arguments(parser)
-    given = FIGURES[command][1] if options is None else options
-    module.run(parser.parse_args([str(source), "--svg", str(svg), "--png", str(png), *given]))
-    return svg.read_bytes(), png.read_bytes()
+def plot(figure: str, data: pd.DataFrame, folder: Path, options: dict | None = None) -> tuple[bytes, bytes]:
+    """Draw a table; returns the bytes of its SVG and its PNG."""
+    data.to_csv(folder / "table.csv", index=False)
+    given = FIGURES[figure][1] if options is None else options
+    words = draw_words(figure, folder, {"table": folder / "table.csv"}, given)
+    parser = OneLineParser()
+    draw.add_arguments(parser)
+    draw.run(parser.parse_args(words[1:]))
+    return (folder / "x.svg").read_bytes(), (folder / "x.png").read_bytes()
 
 
-def refusal(command: str, data: pd.DataFrame, folder: Path, options: list[str] | None = None) -> str:
+def refusal(figure: str, data: pd.DataFrame, folder: Path, options: dict | None = None) -> str:
     """The one-line error; nothing may have been written."""
     with pytest.raises(InputError) as caught:
-        plot(command, data, folder, options)
+        plot(figure, data, folder, options)
     assert "\n" not in str(caught.value)
     assert [path.name for path in folder.iterdir()] == ["table.csv"]
     return str(caught.value)
 
 
 @each_figure
-def test_two_renders_are_the_same_bytes(command, tmp_path):
-    data = FIGURES[command][0]()
-    svg, png = plot(command, data, tmp_path)
+def test_two_renders_are_the_same_bytes(figure, tmp_path):
+    data = FIGURES[figure][0]()
+    svg, png = plot(figure, data, tmp_path)
     assert svg.startswith(b"<?xml") and b"<dc:date>" not in svg
     assert png.startswith(b"\x89PNG") and b"Software" not in png
-    assert plot(command, data, tmp_path) == (svg, png)
+    assert plot(figure, data, tmp_path) == (svg, png)
 
 
 @each_figure
-def test_a_missing_column_is_named(command, tmp_path):
-    make, _, column = FIGURES[command]
-    assert f"no column {column};" in refusal(command, make().drop(columns=column), tmp_path)
+def test_a_missing_column_is_named(figure, tmp_path):
+    make, _, column = FIGURES[figure]
+    assert f"no column {column};" in refusal(figure, make().drop(columns=column), tmp_path)
 
 
 @each_figure
-def test_a_table_without_rows_is_refused(command, tmp_path):
-    assert "no rows" in refusal(command, FIGURES[command][0]().head(0), tmp_path)
+def test_a_table_without_rows_is_refused(figure, tmp_path):
+    assert "no rows" in refusal(figure, FIGURES[figure][0]().head(0), tmp_path)
 
 
-@pytest.mark.parametrize("command", [name for name in FIGURES if name != "plot_effects"])
-def test_an_unknown_test_set_is_refused(command, tmp_path):
-    assert "test_set: 'C'" in refusal(command, FIGURES[command][0]().assign(test_set="C"), tmp_path)
+@pytest.mark.parametrize("figure", [name for name in FIGURES if name != "effects"])
+def test_an_unknown_test_set_is_refused(figure, tmp_path):
+    assert "test_set: 'C'" in refusal(figure, FIGURES[figure][0]().assign(test_set="C"), tmp_path)
 
 
 def test_text_in_a_column_of_numbers_is_refused(tmp_path):
-    assert "column loss must hold numbers" in refusal(
-        "plot_reconstruction", reconstruction().assign(loss="x"), tmp_path
-    )
+    assert "column loss must hold numbers" in refusal("reconstruction", reconstruction().assign(loss="x"), tmp_path)
 
 
 def test_an_unknown_variant_recipe_or_model_is_refused(tmp_path):
-    assert "triple" in refusal("plot_reconstruction", reconstruction().assign(variant="triple"), tmp_path)
-    assert "'guess'" in refusal("plot_baselines", baselines().assign(recipe="guess"), tmp_path)
-    message = refusal("plot_forecast_errors", ensemble_errors(), tmp_path, ["--model", "nobody"])
+    assert "triple" in refusal("reconstruction", reconstruction().assign(variant="triple"), tmp_path)
+    assert "'guess'" in refusal("baselines", baselines().assign(recipe="guess"), tmp_path)
+    message = refusal("forecast_errors", ensemble_errors(), tmp_path, {"model": "nobody"})
     assert "'nobody'" in message and "ours_2" in message
 
 
 def test_user_settings_do_not_reach_the_figures(tmp_path, monkeypatch):
-    plain = plot("plot_baselines", baselines(), tmp_path)
+    plain = plot("baselines", baselines(), tmp_path)
     monkeypatch.setitem(matplotlib.rcParams, "axes.facecolor", "red")
-    assert plot("plot_baselines", baselines(), tmp_path) == plain
+    assert plot("baselines", baselines(), tmp_path) == plain
 
 
 def test_one_trajectory_is_enough(tmp_path):
     single = forecast_errors().query("latent_dim == 2 and B in (100, 150) and angle_index == 1")
-    assert plot("plot_error_distribution", single.assign(E_max=1e-4), tmp_path)
-    assert plot("plot_forecast_errors", ensemble_errors().query("B in (100, 'all')"), tmp_path)
+    assert plot("error_distribution", single.assign(E_max=1e-4), tmp_path)
+    assert plot("forecast_errors", ensemble_errors().query("B in (100, 'all')"), tmp_path)
 
 
 @each_figure
-def test_a_diverged_forecast_does_not_stop_a_figure(command, tmp_path):
-    data, column = FIGURES[command][0](), FIGURES[command][2]
-    error = column if command != "plot_error_distribution" else "E_max"
+def test_a_diverged_forecast_does_not_stop_a_figure(figure, tmp_path):
+    data, column = FIGURES[figure][0](), FIGURES[figure][2]
+    error = column if figure != "error_distribution" else "E_max"
     data.loc[0, error] = float("inf")
-    assert plot(command, data, tmp_path)
+    assert plot(figure, data, tmp_path)
 
 
 def test_a_panel_without_any_error_is_refused(tmp_path):
     only_A = forecast_errors().query("test_set == 'A'")
-    assert "latent_dim 2, test_set B" in refusal("plot_error_distribution", only_A, tmp_path)
+    assert "latent_dim 2, test_set B" in refusal("error_distribution", only_A, tmp_path)

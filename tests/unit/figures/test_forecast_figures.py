@@ -7,13 +7,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from figure_command import draw_words
 from sedfiber.commands.cli import main
 from sedfiber.core.errors import InputError
 from sedfiber.figures.best_and_worst import best_and_worst, pair_up, pairs_of
 from sedfiber.figures.contact_sheet import draw_contact_sheet
 from sedfiber.figures.forecast_paths import draw_forecast_paths
 from sedfiber.figures.forecast_shapes import SNAPSHOTS, draw_forecast_shapes
-from sedfiber.figures.lags import draw_lags
+from sedfiber.figures.lags import draw as draw_lags
 from sedfiber.figures.style import BLACK, VERMILION
 from sedfiber.reduced.dataset_file import write_dataset
 from sedfiber.simulation.trajectory import Trajectory, fall_keys
@@ -22,11 +23,7 @@ N_BEADS = 7
 T = np.arange(0.0, 20.5, 0.5)
 SETS = {"A": (100.0, 1000.0), "B": (300.0,)}  # ℬ of each test set
 ANGLES = (1, 3, 5)
-COMMANDS = {
-    "plot_forecast_shapes": ["--test-set", "A"],
-    "plot_forecast_paths": [],
-    "plot_contact_sheet": [],
-}
+FIGURES = ("forecast_shapes", "forecast_paths", "contact_sheet")
 
 
 def fall(split, B, angle_index, lag=0.0):
@@ -71,26 +68,34 @@ def lags():
 
 
 def write_inputs(folder):
-    """Data sets, forecasts and table, as the study's rules hand them over; returns the command's words."""
+    """Data sets, forecasts and table, as the study's rules hand them over; returns their paths by name."""
     for name, falls in (("truth", truths()), ("forecast", forecasts())):
         for split in SETS:
             write_dataset([one for one in falls if one.split == split], folder / f"{name}_{split}.parquet")
     errors().to_csv(folder / "errors.csv", index=False)
     files = [[str(folder / f"{name}_{split}.parquet") for split in SETS] for name in ("truth", "forecast")]
-    return ["--truth", *files[0], "--forecasts", *files[1], "--errors", str(folder / "errors.csv")]
+    return {"truth": files[0], "forecasts": files[1], "errors": str(folder / "errors.csv")}
 
 
-def plot(folder, *words):
-    """Exit status of a plotting command, its figures in ``folder``."""
-    return main([*words, "--svg", str(folder / "x.svg"), "--png", str(folder / "x.png")])
+def inputs_of(figure, folder):
+    """What one figure takes of them: the shapes are of one test set."""
+    inputs = write_inputs(folder)
+    if figure == "forecast_shapes":
+        inputs |= {name: inputs[name][0] for name in ("truth", "forecasts")}
+    return inputs
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_two_renders_are_the_same_bytes(command, tmp_path):
-    words = [command, *write_inputs(tmp_path), "--latent-dim", "4", *COMMANDS[command]]
+def plot(folder, figure, inputs, **options):
+    """Exit status of the command, its figures in ``folder``."""
+    return main(draw_words(figure, folder, inputs, options))
+
+
+@pytest.mark.parametrize("figure", FIGURES)
+def test_two_renders_are_the_same_bytes(figure, tmp_path):
+    inputs = inputs_of(figure, tmp_path)
     renders = []
     for _ in range(2):
-        assert plot(tmp_path, *words) == 0
+        assert plot(tmp_path, figure, inputs, latent_dim=4) == 0
         renders.append([(tmp_path / name).read_bytes() for name in ("x.svg", "x.png")])
     assert renders[0] == renders[1]
     assert renders[0][0].startswith(b"<?xml") and renders[0][1].startswith(b"\x89PNG")
@@ -100,14 +105,14 @@ def test_the_figure_of_lags_is_the_same_bytes_twice(tmp_path):
     lags().to_csv(tmp_path / "lags.csv", index=False)
     renders = []
     for _ in range(2):
-        assert plot(tmp_path, "plot_lags", str(tmp_path / "lags.csv"), "--model", "ours") == 0
+        assert plot(tmp_path, "lags", {"table": tmp_path / "lags.csv"}, model="ours") == 0
         renders.append((tmp_path / "x.svg").read_bytes())
     assert renders[0] == renders[1]
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_an_unknown_latent_dimension_is_one_line(command, tmp_path, capsys):
-    assert plot(tmp_path, command, *write_inputs(tmp_path), "--latent-dim", "3", *COMMANDS[command]) == 1
+@pytest.mark.parametrize("figure", FIGURES)
+def test_an_unknown_latent_dimension_is_one_line(figure, tmp_path, capsys):
+    assert plot(tmp_path, figure, inputs_of(figure, tmp_path), latent_dim=3) == 1
     message = capsys.readouterr().err
     assert "latent_dim: 3 is not in the table; give one of 2, 4" in message and message.count("\n") == 1
     assert not list(tmp_path.glob("x.*"))
@@ -216,12 +221,12 @@ def test_an_error_without_a_lag_does_not_stop_the_figure():
     assert len(figure.axes[2].lines[0].get_xdata()) == len(SETS["A"]) * len(ANGLES)
 
 
-@pytest.mark.parametrize("command", COMMANDS)
-def test_one_trajectory_of_each_set_is_enough(command, tmp_path):
+@pytest.mark.parametrize("figure", FIGURES)
+def test_one_trajectory_of_each_set_is_enough(figure, tmp_path):
     """Best and worst are then the same."""
-    words = [command, *write_inputs(tmp_path), "--latent-dim", "4", *COMMANDS[command]]
+    inputs = inputs_of(figure, tmp_path)
     few = [fall("A", 100.0, 3), fall("B", 300.0, 3)]
     for one in few:
         for name in ("truth", "forecast"):
             write_dataset([one], tmp_path / f"{name}_{one.split}.parquet")
-    assert plot(tmp_path, *words) == 0
+    assert plot(tmp_path, figure, inputs, latent_dim=4) == 0

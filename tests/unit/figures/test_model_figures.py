@@ -10,10 +10,13 @@ import pytest
 from matplotlib.colors import same_color
 from matplotlib.patches import FancyArrowPatch
 
+from figure_command import draw_words
 from sedfiber.commands.cli import main
 from sedfiber.figures.blocks import bent
-from sedfiber.figures.model_diagram import CONNECTIONS, draw_model_diagram, read_sizes
-from sedfiber.figures.reconstruction import CURVES, draw_reconstruction
+from sedfiber.figures.model_diagram import CONNECTIONS
+from sedfiber.figures.model_diagram import draw as draw_model_diagram
+from sedfiber.figures.reconstruction import CURVES
+from sedfiber.figures.reconstruction import draw as draw_reconstruction
 
 CARD = {
     "kind": "forecast model",
@@ -42,7 +45,7 @@ def write_card(folder, **changes):
 
 def model_axes(folder, **changes):
     """The axes that all of the diagram is drawn on."""
-    return draw_model_diagram(read_sizes(write_card(folder, **changes))).axes[0]
+    return draw_model_diagram(write_card(folder, **changes)).axes[0]
 
 
 def words(axes):
@@ -56,19 +59,18 @@ def connections(axes):
     return {wire.get_label().removeprefix("connection "): wire for wire in labelled}
 
 
-def files(folder, command, source):
-    """Bytes of the SVG and the PNG that a command draws."""
-    svg, png = folder / "figure.svg", folder / "figure.png"
-    assert main([command, str(source), "--svg", str(svg), "--png", str(png)]) == 0
-    return svg.read_bytes(), png.read_bytes()
+def files(folder, figure, **inputs):
+    """Bytes of the SVG and the PNG of a figure."""
+    assert main(draw_words(figure, folder, inputs)) == 0
+    return (folder / "x.svg").read_bytes(), (folder / "x.png").read_bytes()
 
 
 @each_variant
 def test_the_diagram_is_drawn_twice_alike(variant, tmp_path):
     card = write_card(tmp_path, variant=variant, latent_dim=2, scales={"n_beads": 7})
-    first = files(tmp_path, "plot_model_diagram", card)
+    first = files(tmp_path, "model_diagram", card=card)
     assert first[0].startswith(b"<?xml") and first[1].startswith(b"\x89PNG")
-    assert files(tmp_path, "plot_model_diagram", card) == first
+    assert files(tmp_path, "model_diagram", card=card) == first
 
 
 @each_variant
@@ -144,11 +146,10 @@ def test_a_missing_card_is_refused(tmp_path, capsys):
 
 def refuse(card, named, capsys):
     """One line that names what is wrong; nothing is drawn."""
-    svg = card.with_name("x.svg")
-    assert main(["plot_model_diagram", str(card), "--svg", str(svg), "--png", str(svg)]) == 1
+    assert main(draw_words("model_diagram", card.parent, {"card": card})) == 1
     error = capsys.readouterr().err
     assert error.count("\n") == 1 and named in error
-    assert not svg.exists()
+    assert not card.with_name("x.svg").exists()
 
 
 def test_a_sketched_fiber_is_an_arc_about_its_centre_bead():
@@ -171,8 +172,8 @@ def losses():
 
 def test_the_reconstruction_loss_is_drawn_twice_alike(tmp_path):
     losses().to_csv(tmp_path / "table.csv", index=False)
-    first = files(tmp_path, "plot_reconstruction", tmp_path / "table.csv")
-    assert files(tmp_path, "plot_reconstruction", tmp_path / "table.csv") == first
+    first = files(tmp_path, "reconstruction", table=tmp_path / "table.csv")
+    assert files(tmp_path, "reconstruction", table=tmp_path / "table.csv") == first
 
 
 def test_a_mark_is_the_mean_over_seeds_and_its_bar_goes_from_the_least_to_the_greatest():

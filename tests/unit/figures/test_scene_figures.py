@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from figure_command import draw_words
 from sedfiber import Scene, simulate, write_trajectory
 from sedfiber.commands.cli import main
 from sedfiber.figures.scene import draw_scene
@@ -22,10 +23,8 @@ KINDS = {
 def draw(folder, run):
     """Both files of one picture, as bytes, by the command."""
     write_trajectory(run, folder / "run.parquet")
-    files = [folder / "run.svg", folder / "run.png"]
-    words = ["plot_scene", folder / "run.parquet", "--title", "a run", "--svg", files[0], "--png", files[1]]
-    assert main([str(word) for word in words]) == 0
-    return [path.read_bytes() for path in files]
+    assert main(draw_words("scene", folder, {"run": folder / "run.parquet"}, {"scene": "a_run"})) == 0
+    return [(folder / name).read_bytes() for name in ("x.svg", "x.png")]
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -77,8 +76,7 @@ def growth_tables(folder, place="threshold"):
 
 def draw_third_dimension(folder):
     """Exit status of the command."""
-    files = ["--svg", str(folder / "x.svg"), "--png", str(folder / "x.png")]
-    return main(["plot_third_dimension", str(folder / "table.csv"), "--growth", str(folder / "growth.csv"), *files])
+    return main(draw_words("third_dimension", folder, {"table": folder / "table.csv", "growth": folder / "growth.csv"}))
 
 
 def test_the_third_dimension_is_drawn_twice_alike(tmp_path):

@@ -1,18 +1,18 @@
 """Figures of the study itself, on four falls of seven beads: the same bytes twice, the right things drawn."""
 
-import argparse
-from importlib import import_module
-
 import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.colors import to_rgba
 
+from figure_command import draw_words
 from sedfiber import Scene, read_trajectory, simulate, write_trajectory
-from sedfiber.commands.cli import main
+from sedfiber.commands.cli import OneLineParser, main
+from sedfiber.commands.steps import draw
 from sedfiber.core.errors import InputError
 from sedfiber.figures.centre_paths import draw_centre_paths
-from sedfiber.figures.data_sets import SETS, draw_data_sets
+from sedfiber.figures.data_sets import SETS
+from sedfiber.figures.data_sets import draw as draw_data_sets
 from sedfiber.figures.falls import falls_where, plane_path, plane_shapes, settled_at, snapshots
 from sedfiber.figures.problem import LAST, draw_problem
 from sedfiber.figures.shapes_by_angle import draw_shapes_by_angle
@@ -23,13 +23,13 @@ from sedfiber.scene.numerics import Numerics
 
 B_VALUES, ANGLES, N = (100, 1000), (0, 12), 7
 FIGURES = {
-    "plot_problem": ["B1000_k12.parquet"],
-    "plot_shapes_by_angle": ["data.parquet", "--B", "1000"],
-    "plot_centre_paths": ["data.parquet", "--B", "1000"],
-    "plot_shapes_by_flexibility": ["data.parquet", "regimes.csv", "--angle-index", "12"],
-    "plot_data_sets": ["trajectories.csv"],
+    "problem": ({"fall": "B1000_k12.parquet"}, {}),
+    "shapes_by_angle": ({"dataset": "data.parquet"}, {"B": 1000}),
+    "centre_paths": ({"dataset": "data.parquet"}, {"B": 1000}),
+    "shapes_by_flexibility": ({"dataset": "data.parquet", "regimes": "regimes.csv"}, {"angle_index": 12}),
+    "data_sets": ({"table": "trajectories.csv"}, {}),
 }
-each_figure = pytest.mark.parametrize("command", FIGURES)
+each_figure = pytest.mark.parametrize("figure", FIGURES)
 
 
 @pytest.fixture(scope="module")
@@ -58,19 +58,20 @@ def call(*words):
     assert main([str(word) for word in words]) == 0
 
 
-def plot(command, study, out, words=None):
-    """Run a command; returns the bytes of its SVG and its PNG. Words with a dot are files of the study."""
-    given = [str(study / word) if "." in word else word for word in words or FIGURES[command]]
-    module, parser = import_module(f"sedfiber.commands.steps.{command}"), argparse.ArgumentParser()
-    module.add_arguments(parser)
-    module.run(parser.parse_args([*given, "--svg", str(out / "x.svg"), "--png", str(out / "x.png")]))
+def plot(figure, study, out, settings=None):
+    """Draw files of the study; returns the bytes of the SVG and the PNG."""
+    inputs, options = settings or FIGURES[figure]
+    words = draw_words(figure, out, {name: study / file for name, file in inputs.items()}, options)
+    parser = OneLineParser()
+    draw.add_arguments(parser)
+    draw.run(parser.parse_args(words[1:]))
     return (out / "x.svg").read_bytes(), (out / "x.png").read_bytes()
 
 
-def refusal(command, study, out, words):
+def refusal(figure, study, out, settings):
     """The one-line error; nothing may have been written."""
     with pytest.raises(InputError) as caught:
-        plot(command, study, out, words)
+        plot(figure, study, out, settings)
     assert "\n" not in str(caught.value)
     assert not (out / "x.svg").exists() and not (out / "x.png").exists()
     return str(caught.value)
@@ -82,21 +83,21 @@ def words_in(figure):
 
 
 @each_figure
-def test_two_renders_are_the_same_bytes(command, study, tmp_path):
-    svg, png = plot(command, study, tmp_path)
+def test_two_renders_are_the_same_bytes(figure, study, tmp_path):
+    svg, png = plot(figure, study, tmp_path)
     assert svg.startswith(b"<?xml") and png.startswith(b"\x89PNG")
-    assert plot(command, study, tmp_path) == (svg, png)
+    assert plot(figure, study, tmp_path) == (svg, png)
 
 
-@pytest.mark.parametrize("command", ["plot_shapes_by_angle", "plot_centre_paths"])
-def test_a_number_that_is_not_in_the_data_is_refused(command, study, tmp_path):
-    message = refusal(command, study, tmp_path, ["data.parquet", "--B", "150"])
+@pytest.mark.parametrize("figure", ["shapes_by_angle", "centre_paths"])
+def test_a_number_that_is_not_in_the_data_is_refused(figure, study, tmp_path):
+    message = refusal(figure, study, tmp_path, ({"dataset": "data.parquet"}, {"B": 150}))
     assert message == "B: 150 is not in the data set; give one of 100, 1000"
 
 
 def test_an_angle_that_is_not_in_the_data_is_refused(study, tmp_path):
-    words = ["data.parquet", "regimes.csv", "--angle-index", "13"]
-    message = refusal("plot_shapes_by_flexibility", study, tmp_path, words)
+    inputs, _ = FIGURES["shapes_by_flexibility"]
+    message = refusal("shapes_by_flexibility", study, tmp_path, (inputs, {"angle_index": 13}))
     assert message == "angle_index: 13 is not in the data set; give one of 0, 12"
 
 
@@ -107,12 +108,12 @@ def test_what_is_no_data_set_is_refused(study, tmp_path):
         ("nowhere.parquet", "cannot read"),
         ("B1000_k12.parquet", "lacks the columns split"),
     ):
-        assert complaint in refusal("plot_centre_paths", study, tmp_path, [name, "--B", "1000"])
+        assert complaint in refusal("centre_paths", study, tmp_path, ({"dataset": name}, {"B": 1000}))
 
 
 def test_a_run_that_does_not_settle_is_no_picture_of_the_problem(tmp_path):
     write_trajectory(simulate(Scene(1000, 0.5, N), Numerics(t_end=1.0)), tmp_path / "short.parquet")
-    assert "end settled" in refusal("plot_problem", tmp_path, tmp_path, ["short.parquet"])
+    assert "end settled" in refusal("problem", tmp_path, tmp_path, ({"fall": "short.parquet"}, {}))
 
 
 def test_snapshots_are_even_in_a_steady_motion():

@@ -6,6 +6,7 @@ from importlib import import_module
 import pandas as pd
 import pytest
 
+from figure_command import draw_words
 from sedfiber.commands.cli import main
 from sedfiber.core.errors import NumericalError
 from sedfiber.study.hard_cases import start_cases
@@ -93,6 +94,5 @@ def test_table_and_figure_show_failures(tmp_path, capsys):
     out = capsys.readouterr().out
     assert "2 cases, 2 measurements, 1 wrong" in out
     assert "wrong: two: x: 2, bound 1" in out
-    outputs = [tmp_path / "figure.svg", tmp_path / "figure.png"]
-    assert main(["plot_hard_cases", str(table), "--svg", str(outputs[0]), "--png", str(outputs[1])]) == 0
-    assert all(path.stat().st_size > 1000 for path in outputs)
+    assert main(draw_words("hard_cases", tmp_path, {"table": table})) == 0
+    assert all((tmp_path / name).stat().st_size > 1000 for name in ("x.svg", "x.png"))

@@ -13,7 +13,7 @@ from sedfiber.study.targets import WORST_BARS
 GROUP_HEIGHT = 0.75  # share of the distance between two ℬ that is taken by the forecasters' rows
 
 
-def draw_baselines(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """Two panels, sets A and B: one group of rows for each ℬ, filled dot worst, open dot median."""
     rows = select_columns(table, ("test_set", "model", "recipe"), ("B", "latent_dim", "E_worst", "E_median"))
     shown = legend_entries(rows)

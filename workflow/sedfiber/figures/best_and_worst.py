@@ -1,18 +1,14 @@
 """True falls with their forecasts, and the best and the worst of each ℬ: lowest and highest maximum of E(t)."""
 
-import argparse
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from sedfiber.core.array_types import Array
-from sedfiber.core.csv_file import read_csv
 from sedfiber.core.errors import InputError
-from sedfiber.figures.drawing import add_output_arguments, write_drawing
 from sedfiber.figures.table_input import in_set, select_columns
 from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.reduced.measures import forecast_error
@@ -36,19 +32,9 @@ class Pair:
         return forecast_error(self.truth.positions, self.forecast.positions).total
 
 
-def add_pair_arguments(parser: argparse.ArgumentParser) -> None:
-    """True falls, their forecasts, the table of errors, the model's latent dimension, the two files to write."""
-    parser.add_argument("--truth", nargs="+", type=Path, required=True, help="Parquet files of test splits")
-    parser.add_argument("--forecasts", nargs="+", type=Path, required=True, help="one model's forecasts of them")
-    parser.add_argument("--errors", type=Path, required=True, help="CSV table (forecast_errors.csv)")
-    parser.add_argument("--latent-dim", type=int, required=True, help="that model's latent dimension in the table")
-    add_output_arguments(parser)
-
-
-def write_pair_figure(args: argparse.Namespace, draw: Callable[[list[Pair]], Figure]) -> None:
-    """Refuse unusable outputs, read, draw, write both files."""
-    pairs = pair_up(_read_all(args.truth), _read_all(args.forecasts), read_csv(args.errors), args.latent_dim)
-    write_drawing(args, lambda: draw(pairs))
+def read_pairs(truth: Sequence[Path], forecasts: Sequence[Path], errors: pd.DataFrame, latent_dim: int) -> list[Pair]:
+    """`pair_up` of data sets and forecasts in files."""
+    return pair_up(_read_all(truth), _read_all(forecasts), errors, latent_dim)
 
 
 def pair_up(

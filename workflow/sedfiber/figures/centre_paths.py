@@ -1,15 +1,23 @@
 """Paths of the centre bead at one ℬ, from every angle: to scale, and how far each drifts."""
 
+from pathlib import Path
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from sedfiber.core.array_types import Array
-from sedfiber.figures.falls import plane_path
+from sedfiber.figures.falls import falls_where, plane_path
 from sedfiber.figures.style import B_SYMBOL, COLUMN_WIDTH, GREY, SEQUENTIAL, letter_panel, place_legend
+from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.simulation.trajectory import Trajectory
 
 MARKS = {"start": "v", "end": "x"}
 _ABOVE = {"textcoords": "offset points", "horizontalalignment": "right", "fontsize": 7.0}
+
+
+def draw(dataset: Path, B: float) -> Figure:
+    """The falls of a data set at one ℬ."""
+    return draw_centre_paths(falls_where(read_falls(dataset), "B", B))
 
 
 def draw_centre_paths(falls: list[Trajectory]) -> Figure:

@@ -1,8 +1,10 @@
 """Every test trajectory at a glance: true and forecast shapes, and the largest error."""
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
@@ -10,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 from sedfiber.core.array_types import Array
-from sedfiber.figures.best_and_worst import Pair, thinned
+from sedfiber.figures.best_and_worst import Pair, read_pairs, thinned
 from sedfiber.figures.falls import plane_shapes, snapshots
 from sedfiber.figures.style import B_SYMBOL, BLACK, PAGE_WIDTH, SEQUENTIAL, VERMILION, place_legend
 
@@ -22,6 +24,11 @@ _FILLED = 0.94  # of a cell
 _TINT = 0.45  # opacity of a cell's background
 TRUE_LINE, FORECAST_LINE = 1.8, 0.6  # points
 _LEAST_E = 1e-16  # smaller errors, of forecasts as good as exact, are coloured as this
+
+
+def draw(truth: Sequence[Path], forecasts: Sequence[Path], errors: pd.DataFrame, latent_dim: int) -> Figure:
+    """Both test sets as one model forecasts them."""
+    return draw_contact_sheet(read_pairs(truth, forecasts, errors, latent_dim))
 
 
 def draw_contact_sheet(pairs: Sequence[Pair]) -> Figure:

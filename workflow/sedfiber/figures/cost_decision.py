@@ -24,7 +24,7 @@ _OTHERS = {
 _SMALL = 6.0  # points
 
 
-def draw_cost_decision(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """(a) seconds over error, (b) seconds of preparation, (c) after how many queries these are earned back."""
     shown = choices(table)
     figure = Figure(figsize=(PAGE_WIDTH, 5.4))

@@ -44,7 +44,7 @@ _PANEL_HEIGHT = 1.9  # inches
 _NUMBERS = ("B", "angle_index", "tolerance", "error", "seconds_whole_fall", "seconds_spread", "fraction_of_fall")
 
 
-def draw_cost_integrators(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """A row of panels for each starting angle, a column for each ℬ; a line for each method and Jacobian."""
     rows = select_columns(table, ("method", "jacobian", "status"), _NUMBERS)
     for name, known in (("method", LOOKS), ("jacobian", STYLES)):

@@ -37,7 +37,7 @@ _MODEL = ["variant", "latent_dim", "recipe"]
 _TITLES = {"training_seconds": "training seconds", "reconstruction_loss": "reconstruction loss"}
 
 
-def draw_cost_models(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """Largest E over training seconds (above) and over reconstruction loss (below), for both test sets."""
     rows = select_columns(table, ("variant", "recipe", "test_set"), _NUMBERS)
     for name, known in (("variant", VARIANTS), ("recipe", RECIPES)):

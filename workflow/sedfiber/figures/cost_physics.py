@@ -28,7 +28,7 @@ _NUMBERS = (
 _LEAST = 1e-8  # smaller changes are rounding
 
 
-def draw_cost_physics(table: pd.DataFrame, growth: pd.DataFrame, models: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame, growth: pd.DataFrame, models: pd.DataFrame) -> Figure:
     """(a) changes, (b) seconds of the parts, (c) of mobilities, (d) of simulation and forecast, all over N."""
     rows = select_columns(table, ("hydrodynamics", "status"), _NUMBERS.split()).sort_values("n_beads")
     for name in rows["hydrodynamics"].unique():

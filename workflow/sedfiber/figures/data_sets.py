@@ -20,7 +20,7 @@ _SIZE = 5.8  # points, of the words in a cell, which is a quarter of an inch wid
 _PALE = 0.4  # opacity: black words are read on every colour
 
 
-def draw_data_sets(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """A cell for each (ℬ, k): colour and letter say the set, the number is the settling time."""
     rows = select_columns(table, ("split",), ("B", "angle_index", "settling_time"))
     _require_known(rows)

@@ -16,7 +16,7 @@ COSTS = {
 _LEAST = 1e-9  # of L: smaller changes are drawn here
 
 
-def draw_effects(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """(a) times over the study's; (b) change of the last shape; (c) change of the falling speed."""
     numbers = (*COSTS, "shape_change_L", "speed_change_percent")
     rows = select_columns(table, ("effect", "status"), numbers)[::-1].reset_index(drop=True)

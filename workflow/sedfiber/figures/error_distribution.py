@@ -22,7 +22,7 @@ PANEL_HEIGHT = 1.85  # inches
 LETTERS = "abcdefghijklmnopqrstuvwxyz"
 
 
-def draw_error_distribution(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """A row of panels for each latent dimension, a column for each test set, one colour scale."""
     rows = select_columns(table, ("test_set",), ("latent_dim", "B", "angle_index", "E_max"))
     norm = _error_norm(rows["E_max"])

@@ -28,7 +28,7 @@ ALL = "all"  # in column B: the mean over every ℬ of a set
 PARTS = {"E_shape": ("-", r"$E_\mathrm{shape}$"), "E_pos": (":", r"$E_\mathrm{pos}$")}
 
 
-def draw_forecast_errors(table: pd.DataFrame, model: str) -> Figure:
+def draw(table: pd.DataFrame, model: str) -> Figure:
     """Above: E(t/T) of ``model``. Below: its parts. The source's recipe and the lookup are drawn in."""
     rows = select_columns(
         table, ("model", "recipe", "test_set", "B"), ("latent_dim", "time_fraction", "E", "E_shape", "E_pos")

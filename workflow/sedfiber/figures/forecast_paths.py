@@ -1,15 +1,17 @@
 """Best and worst forecast paths of the centre bead over the true ones, and how far the two are apart."""
 
 from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from sedfiber.core.array_types import Array
-from sedfiber.figures.best_and_worst import LINES, Pair, best_and_worst, pairs_of
+from sedfiber.figures.best_and_worst import LINES, Pair, best_and_worst, pairs_of, read_pairs
 from sedfiber.figures.falls import plane_path
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -31,6 +33,11 @@ _PATHS_WIDTH = 2.75  # inches, of one panel
 _SAMPLES = 150  # of a path that are drawn
 Couples = dict[float, tuple[Pair, Pair]]  # of each ℬ, best and worst
 _SHARES = (1e-2, 1e-3, 1e-4)  # of the distance fallen: E_pos is the square
+
+
+def draw(truth: Sequence[Path], forecasts: Sequence[Path], errors: pd.DataFrame, latent_dim: int) -> Figure:
+    """Both test sets as one model forecasts them."""
+    return draw_forecast_paths(read_pairs(truth, forecasts, errors, latent_dim))
 
 
 def draw_forecast_paths(pairs: Sequence[Pair]) -> Figure:

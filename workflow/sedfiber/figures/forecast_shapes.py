@@ -1,14 +1,16 @@
 """Best and worst forecast shapes over the true ones, and their E(t)."""
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import LogLocator, NullLocator
 
-from sedfiber.figures.best_and_worst import LINES, Pair, best_and_worst, thinned
+from sedfiber.figures.best_and_worst import LINES, Pair, best_and_worst, read_pairs, thinned
 from sedfiber.figures.falls import draw_shapes, plane_shapes, snapshots
 from sedfiber.figures.style import (
     B_SYMBOL,
@@ -28,6 +30,11 @@ _WORDS = 2.8  # L, the width left of the shapes
 _LEAST_ROW, _GAP = 0.55, 0.1  # L, of a row's height, and between rows
 _LEAST_E = 1e-16  # smaller errors are drawn here
 _SHAPES_WIDTH, _PAD = 5.2, 0.06  # inches
+
+
+def draw(truth: Path, forecasts: Path, errors: pd.DataFrame, latent_dim: int) -> Figure:
+    """One test set as one model forecasts it."""
+    return draw_forecast_shapes(read_pairs([truth], [forecasts], errors, latent_dim))
 
 
 def draw_forecast_shapes(pairs: Sequence[Pair]) -> Figure:

@@ -14,7 +14,7 @@ _COLUMNS = {"yes or no": 0.0, "all right": 0.42, "seconds": 0.76}  # of the tabl
 _SPREAD = 0.3  # of a row, over which the numbers of a case are spread
 
 
-def draw_hard_cases(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """One row a case: each number over its bound, and how many of its yes-or-no checks came out right."""
     rows = select_columns(table, ("case", "verdict"), ("value", "bound", "seconds"))
     cases = list(dict.fromkeys(rows["case"]))

@@ -23,7 +23,7 @@ _SHARES = {1.0: ("-", "all"), 0.1: ((0, (6, 3)), "a tenth"), 0.01: ((0, (2, 2)),
 _POINT = {"markersize": 3.2, "markerfacecolor": "none", "markeredgewidth": 0.7, "linestyle": ""}
 
 
-def draw_lags(table: pd.DataFrame, model: str) -> Figure:
+def draw(table: pd.DataFrame, model: str) -> Figure:
     """Above: the lag at the largest E_shape over ℬ, of ``model`` and of the source's recipe.  Below: E_shape
     at that moment with the lag taken out over E_shape as it is."""
     rows = select_columns(

@@ -87,7 +87,7 @@ class Sizes:
         return {"d": STEADY, "f": encoder, "h": BUNDLE, "k": decoder, "m": STEADY}
 
 
-def read_sizes(card: Path) -> Sizes:
+def _read_sizes(card: Path) -> Sizes:
     """Read the card of a forecast model; raises InputError for anything else."""
     try:
         facts = json.loads(card.read_text(encoding="utf-8"))
@@ -116,9 +116,9 @@ def _count(key: str, value: object, least: int = 1) -> int:
     return whole_number(key, value, f"a whole number from {least}", least)
 
 
-def draw_model_diagram(sizes: Sizes) -> Figure:
+def draw(card: Path) -> Figure:
     """Above: from X̂(t) to X̂(t + τ) with the source's connections (a) to (o). Below: the three networks opened."""
-    figure = Figure(figsize=(PAGE_WIDTH, 4.75))
+    sizes, figure = _read_sizes(card), Figure(figsize=(PAGE_WIDTH, 4.75))
     figure.set_layout_engine("none")
     sheet = Sheet.on(figure.add_axes((0.0, 0.0, 1.0, 1.0)), PAGE_WIDTH, 4.75)
     overview = sheet.part(0.0, 2.35, PAGE_WIDTH, 2.4)

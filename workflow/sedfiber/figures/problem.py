@@ -1,5 +1,7 @@
 """The problem: a chain of beads let go at an angle, its centre bead, its path and its end."""
 
+from pathlib import Path
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
@@ -10,6 +12,7 @@ from sedfiber.core.array_types import Array
 from sedfiber.core.errors import InputError
 from sedfiber.figures.style import BLACK, COLUMN_WIDTH, GREY, SKY, VERMILION, letter_panel
 from sedfiber.simulation.trajectory import Trajectory
+from sedfiber.simulation.trajectory_file import read_trajectory
 
 # all in L, in the sketch
 DEPTHS = (0.48, 0.88)  # of the shapes between start and end
@@ -24,6 +27,11 @@ _MEASURE = {"arrowprops": _LINE | {"arrowstyle": "<->", "mutation_scale": 7.0}}
 _ARROW = {"arrowprops": _LINE | {"arrowstyle": "->", "mutation_scale": 7.0}}
 _MIDDLE = {"horizontalalignment": "center", "verticalalignment": "center"}
 _OFFSET = {"textcoords": "offset points"}
+
+
+def draw(fall: Path) -> Figure:
+    """The fall of a trajectory file."""
+    return draw_problem(read_trajectory(fall))
 
 
 def draw_problem(run: Trajectory) -> Figure:

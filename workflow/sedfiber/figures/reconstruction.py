@@ -37,7 +37,7 @@ CURVES = {
 }
 
 
-def draw_reconstruction(table: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame) -> Figure:
     """(a) loss on sets A and B, mean over seeds with bars from the least to the greatest; (b)–(e) the variants."""
     numbers = ("latent_dim", "seed", "loss", *([WORST] if WORST in table else []))
     rows = select_columns(table, ("method", "variant", "test_set"), numbers)

@@ -1,5 +1,7 @@
 """A scene's run: snapshots in space, and what changes along the way."""
 
+from pathlib import Path
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -10,6 +12,7 @@ from sedfiber.core.array_types import Array
 from sedfiber.figures.falls import snapshots
 from sedfiber.figures.style import BLACK, BLUE, GREY, ORANGE, PAGE_WIDTH, PURPLE, VERMILION, place_legend
 from sedfiber.simulation.trajectory import Trajectory
+from sedfiber.simulation.trajectory_file import read_trajectory
 
 SNAPSHOTS = 8
 FIBER_COLORS = (BLUE, VERMILION, ORANGE, PURPLE)
@@ -20,6 +23,11 @@ _LEAST_EXTENT = 1e-8  # of L: what reaches less far is flat up to rounding
 _DECADES = 100.0  # from the least to the largest extent out of the plane: more takes a logarithmic axis
 _FLATTEST = 0.55  # height over width of a frame that still has room for the words beside it
 _FRAME = PAGE_WIDTH / SNAPSHOTS  # inches
+
+
+def draw(run: Path, scene: str) -> Figure:
+    """The run of a trajectory file, titled by the name of its scene."""
+    return draw_scene(read_trajectory(run), scene.replace("_", " "))
 
 
 def draw_scene(run: Trajectory, title: str) -> Figure:

@@ -1,19 +1,34 @@
 """The falls of one ℬ from every angle: how the fiber turns and bends, always to the same shape."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from sedfiber.figures.falls import add_time_bar, draw_shapes, plane_shapes, settled_at, snapshots, time_colors
+from sedfiber.figures.falls import (
+    add_time_bar,
+    draw_shapes,
+    falls_where,
+    plane_shapes,
+    settled_at,
+    snapshots,
+    time_colors,
+)
 from sedfiber.figures.style import B_SYMBOL, BLACK, PAGE_WIDTH, VERMILION
+from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.simulation.trajectory import Trajectory
 from sedfiber.study.angles import ANGLES_PER_HALF_TURN
 
 SNAPSHOTS = 12  # of each fall, the first and the last among them
 COLUMNS = 6
 _MARGIN = 2.5  # a, around the shapes
+
+
+def draw(dataset: Path, B: float) -> Figure:
+    """The falls of a data set at one ℬ."""
+    return draw_shapes_by_angle(falls_where(read_falls(dataset), "B", B))
 
 
 def draw_shapes_by_angle(falls: list[Trajectory]) -> Figure:

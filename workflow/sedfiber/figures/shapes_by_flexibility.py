@@ -1,6 +1,7 @@
 """The falls from one angle at every ℬ: shapes, regimes, and the numbers that tell the regimes apart."""
 
 from itertools import groupby, pairwise
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -10,7 +11,15 @@ from matplotlib.figure import Figure
 from sedfiber.core.array_types import Array
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import one_of
-from sedfiber.figures.falls import add_time_bar, draw_shapes, plane_shapes, settled_at, snapshots, time_colors
+from sedfiber.figures.falls import (
+    add_time_bar,
+    draw_shapes,
+    falls_where,
+    plane_shapes,
+    settled_at,
+    snapshots,
+    time_colors,
+)
 from sedfiber.figures.style import (
     B_SYMBOL,
     BLACK,
@@ -23,6 +32,7 @@ from sedfiber.figures.style import (
     place_legend,
 )
 from sedfiber.figures.table_input import select_columns
+from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.simulation.trajectory import Trajectory
 from sedfiber.study.angles import ANGLES_PER_HALF_TURN
 from sedfiber.study.regimes import REGIMES
@@ -38,6 +48,11 @@ ANGLES = {
 }
 _SHAPES_WIDTH = 3.75  # inches, a little less than there is: equal axes then leave space beside the shapes
 _BAR = -0.19  # of the width of the shapes' panel: the regimes' bars, left of the words
+
+
+def draw(dataset: Path, regimes: pd.DataFrame, angle_index: int) -> Figure:
+    """The falls of a data set from one angle θ₀ = kπ/48."""
+    return draw_shapes_by_flexibility(falls_where(read_falls(dataset), "angle_index", angle_index), regimes)
 
 
 def draw_shapes_by_flexibility(falls: list[Trajectory], table: pd.DataFrame) -> Figure:

@@ -40,7 +40,7 @@ _LINEAR = 0.01  # U_s/a: rates are drawn linearly below and logarithmically abov
 _RATE_TICKS = (-1.0, -0.1, -0.01, 0.0, 0.01, 0.1)
 
 
-def draw_states(table: pd.DataFrame, thresholds: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame, thresholds: pd.DataFrame) -> Figure:
     """(a) speed, (b) height, (c) end-to-end distance; leading rates (d) in the plane and (e) out of it."""
     rows = select_columns(table, ("branch",), ("B", "length", *PANELS, *FLAGS)).sort_values("B")
     marks = thresholds  # of a narrow range there are none

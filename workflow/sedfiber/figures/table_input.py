@@ -1,29 +1,13 @@
-"""The part of a table that a figure needs, checked, and the options all figures share."""
+"""The part of a table that a figure needs, checked."""
 
-import argparse
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
-from sedfiber.core.csv_file import read_csv
 from sedfiber.core.errors import InputError
-from sedfiber.figures.drawing import add_output_arguments, write_drawing
 
 TEST_SETS = ("A", "B")
-
-
-def add_figure_arguments(parser: argparse.ArgumentParser, table: str) -> None:
-    """The table to draw and the two files to write."""
-    parser.add_argument("table", type=Path, help=f"CSV table to draw ({table})")
-    add_output_arguments(parser)
-
-
-def write_figure(args: argparse.Namespace, draw: Callable[[pd.DataFrame], Figure]) -> None:
-    """Refuse unusable outputs, read the table, draw it, write both files."""
-    write_drawing(args, lambda: draw(read_csv(args.table)))
 
 
 def select_columns(table: pd.DataFrame, text: Sequence[str], numbers: Sequence[str]) -> pd.DataFrame:

@@ -21,7 +21,7 @@ from sedfiber.figures.style import (
 from sedfiber.figures.table_input import select_columns
 
 
-def draw_third_dimension(table: pd.DataFrame, growth: pd.DataFrame) -> Figure:
+def draw(table: pd.DataFrame, growth: pd.DataFrame) -> Figure:
     """(a) rate of the terminal shape, curve and runs; (b) amplitude of the disturbance in each run."""
     numbers = ("B", "predicted_rate", "measured_rate", "amplitude_start")
     rows = select_columns(table, ("place",), numbers).sort_values("B")

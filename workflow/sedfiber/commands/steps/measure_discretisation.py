@@ -10,7 +10,7 @@ from sedfiber.core.csv_file import write_csv
 from sedfiber.core.errors import InputError
 from sedfiber.scene.scene import Scene
 from sedfiber.study.costs.discretisation import BEADS, GROWTH_COLUMNS, cost_growth, measure_discretisation
-from sedfiber.study.costs.falls import COUNTED
+from sedfiber.study.costs.fall_problem import COUNTED
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

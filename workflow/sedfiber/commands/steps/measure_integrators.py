@@ -10,7 +10,7 @@ from sedfiber.core.csv_file import write_csv
 from sedfiber.core.validation import number_within, positive_number
 from sedfiber.scene.scene import Scene
 from sedfiber.study.angles import angle_index
-from sedfiber.study.costs.falls import COUNTED
+from sedfiber.study.costs.fall_problem import COUNTED
 from sedfiber.study.costs.integrators import LIMIT, SOURCE_LIMIT, TOLERANCES, measure_integrators
 
 
