@@ -10,6 +10,7 @@ from sedfiber.core.errors import InputError
 from sedfiber.reduced.dataset import Dataset, Trajectory
 from sedfiber.reduced.measures import ForecastError, ensemble_mean, forecast_error
 
+RECIPES = ("rollout", "source", "lookup")  # how a forecaster came to be
 TIME_FRACTIONS = np.linspace(0.0, 1.0, 201)  # of the settling period of each trajectory
 
 
