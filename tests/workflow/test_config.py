@@ -144,7 +144,7 @@ def test_conda_environments_hold_what_their_commands_import(environment, command
     listed = yaml.safe_load((REPOSITORY / f"envs/{environment}.yaml").read_text())["dependencies"][-1]["pip"]
     available = {package.partition("==")[0] for package in listed}
     for command in commands:
-        by_name = [f"hard_cases.{case.module}" for case in CASES] if command == "measure_hard_case" else []
+        by_name = [f"study.hard_cases.{case.module}" for case in CASES] if command == "measure_hard_case" else []
         for path in {
             *module_sources(command_module(command)),
             *(path for module in by_name for path in module_sources(module)),
