@@ -6,12 +6,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+from snakemake.iocontainers import Wildcards
+
 BASE = Path(workflow.basedir)
 sys.path.insert(0, str(BASE / "workflow"))
 
 from sedfiber.study.hard_cases.listing import NAMES as HARD_CASES, case_of
 from sedfiber.study.code_fingerprint import code_fingerprint
-from sedfiber.study.configuration import SCENE_NAME, Study, as_options, scene_names
+from sedfiber.study.configuration import SCENE_NAME, Study, scene_names
 
 STUDY = Study.from_config(config, BASE / "workflow/schemas/config.schema.yaml")
 
@@ -69,6 +71,19 @@ def as_json(settings):
     return json.dumps(settings, sort_keys=True)
 
 
+def simulate_options():
+    """What all runs share: `sedfiber simulate` is a person's command and takes options, not settings."""
+    words = {
+        f"--{key.replace('_', '-')}": value for key, value in STUDY.simulation_settings.items()
+    }
+    given = {
+        option: "" if value is True else value
+        for option, value in words.items()
+        if value is not False
+    }
+    return " ".join(f"{option} {value}".rstrip() for option, value in given.items())
+
+
 def autoencoder(variant, dim, seed):
     return f"results/models/autoencoders/{variant}_d{dim}_s{seed}"
 
@@ -84,11 +99,10 @@ def model_files(folder):
     return [f"{folder}/model.safetensors", f"{folder}/card.json"]
 
 
-def forecaster_words(name):
-    """Name, recipe, latent dimension and the forecasts of each test set, for the error tables."""
-    node = NODES.get(name, {"recipe": "lookup", "latent_dim": "-"})
-    files = [f"results/forecasts/{name}/{split}.parquet" for split in TEST_SETS]
-    return " ".join(["--forecaster", name, node["recipe"], str(node["latent_dim"]), *files])
+def forecaster(name):
+    """Name, recipe and latent dimension, for the error tables."""
+    node = NODES.get(name, {"recipe": "lookup", "latent_dim": None})
+    return [name, node["recipe"], node["latent_dim"]]
 
 
 def scene_files(scene):
@@ -116,42 +130,56 @@ def short_autoencoder(wildcards):
     return autoencoder(wildcards.variant, wildcards.dim, config["autoencoders"]["seeds"][0])
 
 
-def test_files(split):
+def split_files(split):
     """A split's data set and the terminal shapes beside it."""
     return [f"results/{folder}/{split}.parquet" for folder in ("dataset", "terminal_shapes")]
 
 
-def benchmark_of_autoencoder(folder):
-    return f"results/benchmarks/train_autoencoder/{Path(folder).name}.tsv"
+def benchmarks_of(rule, results):
+    """The benchmark files of the jobs of a rule, which are named as their results."""
+    return [f"results/benchmarks/{rule}/{Path(result).stem}.tsv" for result in results]
 
 
 def asked_models():
-    """Name, folder and benchmark files of the study's forecast models; the source's recipe is judged elsewhere."""
+    """The study's forecast models, with the benchmark files of their trainings; the source's recipe is judged elsewhere."""
     return [
-        [
-            name,
-            f"results/models/node/{name}",
-            benchmark_of_autoencoder(autoencoder_of(name)),
-            f"results/benchmarks/train_node/{name}.tsv",
-        ]
+        {
+            "name": name,
+            "folder": f"results/models/node/{name}",
+            "benchmarks": [
+                *benchmarks_of("train_autoencoder", [autoencoder_of(name)]),
+                *benchmarks_of("train_node", [name]),
+            ],
+        }
         for name, node in NODES.items()
         if node["recipe"] == "rollout"
     ]
 
 
 def cost_models():
-    """Recipe, seed, folder and benchmark files of every model that is weighed against its training."""
-    study = [["study", NODES[name]["seed"], *words] for name, *words in ASKED_MODELS]
+    """Every model that is weighed against its training."""
+    asked = {
+        model["name"]: {key: model[key] for key in ("folder", "benchmarks")}
+        for model in ASKED_MODELS
+    }
+    study = [
+        {"recipe": "study", "seed": NODES[name]["seed"], **model} for name, model in asked.items()
+    ]
     return study + [short_model(*one) for one in STUDY.short_models]
 
 
 def short_model(variant, dim, seed):
     name, first = f"{variant}_d{dim}_s{seed}", config["autoencoders"]["seeds"][0]
     files = [
-        benchmark_of_autoencoder(autoencoder(variant, dim, first)),
-        f"results/benchmarks/train_short_node/{name}.tsv",
+        *benchmarks_of("train_autoencoder", [autoencoder(variant, dim, first)]),
+        *benchmarks_of("train_short_node", [name]),
     ]
-    return ["short", seed, f"results/models/short/{name}", *files]
+    return {
+        "recipe": "short",
+        "seed": seed,
+        "folder": f"results/models/short/{name}",
+        "benchmarks": files,
+    }
 
 
 # Jobs that measure time take all cores, so that nothing runs beside them. Snakemake cuts it down to
@@ -168,6 +196,7 @@ AUTOENCODERS = [
     for dim in config["autoencoders"]["latent_dims"]
     for seed in config["autoencoders"]["seeds"]
 ]
+SIMULATE_OPTIONS = simulate_options()
 ASKED_MODELS = asked_models()
 COST_MODELS = cost_models()
 COST_CASES = {
@@ -179,31 +208,22 @@ COST_CASES = {
 
 
 def benchmarks():
-    """The benchmark file of every job of a full run, provenance excepted."""
-    splits = [
-        f"{rule}/{split}"
-        for rule in ("solve_terminal_shapes", "aggregate_dataset")
-        for split in STUDY.splits
-    ]
-    names = [
-        *(f"simulate/B{B}_k{k}" for split in STUDY.splits for B, k in STUDY.runs(split)),
-        *splits,
-        "solve_terminal_curve",
-        "tabulate_trajectories",
-        "tabulate_audit",
-        *(f"train_autoencoder/{Path(folder).name}" for folder in AUTOENCODERS),
-        "tabulate_reconstruction",
-        *(f"train_node/{model}" for model in NODES),
-        *(f"forecast_test_set/{model}_{split}" for model in NODES for split in TEST_SETS),
-        *(f"forecast_by_lookup/{split}" for split in TEST_SETS),
-        "tabulate_forecast_errors",
-        "tabulate_regimes",
-        "tabulate_lags",
-        "tabulate_key_numbers",
-        *(f"draw/{name}" for name, about in FIGURES.items() if about["part"] == "study"),
-        "make_explorer",
-    ]
-    return [f"results/benchmarks/{name}.tsv" for name in names]
+    """The benchmark file of every job that the study's results need, in the order of the rules."""
+    found = {
+        stage: {} for stage in workflow.rules if stage.name != "choose_forecast_model"
+    }  # copies files
+    todo, seen = [file for files in STUDY_RESULTS for file in files], set()
+    while todo:
+        file = todo.pop()
+        stage = next((one for one in workflow.rules if one.is_producer(file)), None)
+        job = stage and Wildcards(fromdict=stage.get_wildcards(file))
+        if stage is None or (stage, str(job)) in seen:
+            continue
+        seen.add((stage, str(job)))
+        todo.extend(stage.expand_input(job)[0])
+        if stage in found:
+            found[stage][str(stage.expand_benchmark(job))] = None
+    return [file for files in found.values() for file in files]
 
 
 def commit():

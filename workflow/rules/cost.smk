@@ -12,22 +12,16 @@ rule measure_integrators:
     conda:
         "../../envs/analysis.yaml"
     threads: EVERY_CORE
-    resources:
-        mem_mb=1000,
-        runtime=10,
     params:
         code=code_of("measure_integrators"),
-        options=STUDY.integrators_options,
-    message:
-        "time every integrator at B={wildcards.B}, theta0={wildcards.k}π/48"
+        settings=lambda wildcards: as_json(STUDY.integrator_settings(**wildcards)),
     shell:
-        "sedfiber measure_integrators --B {wildcards.B} --angle-index {wildcards.k} {params.options}"
-        " -o {output} > {log} 2>&1"
+        "sedfiber measure_integrators --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule tabulate_costs:
     input:
-        cases=lambda wildcards: COST_CASES[wildcards.table],
+        lambda wildcards: COST_CASES[wildcards.table],
     output:
         "results/tables/cost_{table}.csv",
     log:
@@ -38,16 +32,10 @@ rule tabulate_costs:
         table="integrators|model_growth",
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("tabulate_costs"),
-    message:
-        "put the tables of {wildcards.table} together"
     shell:
-        "sedfiber tabulate_costs {input.cases} -o {output} > {log} 2>&1"
+        "sedfiber tabulate_costs {input} -o {output} > {log} 2>&1"
 
 
 rule measure_trajectories:
@@ -60,16 +48,11 @@ rule measure_trajectories:
     conda:
         "../../envs/analysis.yaml"
     threads: EVERY_CORE
-    resources:
-        mem_mb=1000,
-        runtime=10,
     params:
         code=code_of("measure_trajectories"),
-        options=STUDY.trajectories_options,
-    message:
-        "time every fall of the study with the default integrator"
+        settings=as_json(STUDY.trajectories_settings),
     shell:
-        "sedfiber measure_trajectories {params.options} -o {output} > {log} 2>&1"
+        "sedfiber measure_trajectories --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule measure_discretisation:
@@ -88,20 +71,17 @@ rule measure_discretisation:
         runtime=15,
     params:
         code=code_of("measure_discretisation"),
-        beads=config["cost"]["discretisation"]["n_beads"],
-    message:
-        "time few beads and many, and every mobility"
+        settings=as_json(config["cost"]["discretisation"]),
     shell:
-        "sedfiber measure_discretisation --n-beads {params.beads}"
+        "sedfiber measure_discretisation --settings {params.settings:q}"
         " -o {output.table} --growth {output.growth} > {log} 2>&1"
 
 
 # The study trains three neural ODEs for minutes each; here one for every variant, dimension and
 # seed, in seconds, on the study's autoencoders.
-rule train_short_node:
+use rule train_node as train_short_node with:
     input:
-        dataset="results/dataset/train.parquet",
-        shapes="results/terminal_shapes/train.parquet",
+        training=split_files("train"),
         autoencoder=lambda wildcards: model_files(short_autoencoder(wildcards)),
     output:
         model_files("results/models/short/{variant}_d{dim}_s{seed}"),
@@ -109,29 +89,17 @@ rule train_short_node:
         "results/logs/train_short_node/{variant}_d{dim}_s{seed}.log",
     benchmark:
         "results/benchmarks/train_short_node/{variant}_d{dim}_s{seed}.tsv"
-    conda:
-        "../../envs/learning.yaml"
-    threads: 1
-    resources:
-        mem_mb=3000,
-        runtime=20,
     params:
         code=code_of("train_node"),
         autoencoder=short_autoencoder,
-        settings=as_json(STUDY.short_node),
+        settings=lambda wildcards: as_json(STUDY.short_node_settings(wildcards.seed)),
         folder=lambda wildcards, output: Path(output[0]).parent,
-    message:
-        "train a neural ODE in short: {wildcards.variant}, d={wildcards.dim}, seed {wildcards.seed}"
-    shell:
-        "sedfiber train_node --dataset {input.dataset} --terminal-shapes {input.shapes}"
-        " --autoencoder {params.autoencoder} --recipe rollout --seed {wildcards.seed}"
-        " --settings {params.settings:q} -o {params.folder} > {log} 2>&1"
 
 
 rule measure_models:
     input:
-        models=[model_files(folder) for _, _, folder, *_ in COST_MODELS],
-        tests=[test_files(split) for split in TEST_SETS],
+        models=[model_files(model["folder"]) for model in COST_MODELS],
+        tests=[split_files(split) for split in TEST_SETS],
         reconstruction="results/tables/reconstruction.csv",
         curve="results/terminal_shapes/terminal_curve.parquet",
     output:
@@ -145,23 +113,19 @@ rule measure_models:
     threads: EVERY_CORE
     resources:
         mem_mb=2000,
-        runtime=10,
     params:
         code=code_of("measure_models"),
-        models=" ".join("--model " + " ".join(map(str, words)) for words in COST_MODELS),
-        tests=" ".join("--test " + " ".join(test_files(split)) for split in TEST_SETS),
-    message:
-        "time and judge the models of every variant and dimension"
+        settings=as_json({"models": COST_MODELS}),
     shell:
-        "sedfiber measure_models {params.models} {params.tests} --reconstruction {input.reconstruction}"
-        " --terminal-curve {input.curve} -o {output} > {log} 2>&1"
+        "sedfiber measure_models {input.tests} --reconstruction {input.reconstruction}"
+        " --terminal-curve {input.curve} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule measure_choices:
     input:
-        models=[model_files(folder) for _, folder, *_ in ASKED_MODELS],
-        training=test_files("train"),
-        tests=[test_files(split) for split in TEST_SETS],
+        models=[model_files(model["folder"]) for model in ASKED_MODELS],
+        training=split_files("train"),
+        tests=[split_files(split) for split in TEST_SETS],
         curve="results/terminal_shapes/terminal_curve.parquet",
     output:
         table="results/tables/cost_forecast.csv",
@@ -178,16 +142,16 @@ rule measure_choices:
         runtime=20,
     params:
         code=code_of("measure_choices"),
-        models=" ".join("--model " + " ".join(words) for words in ASKED_MODELS),
-        tests=" ".join("--test " + " ".join(test_files(split)) for split in TEST_SETS),
-        data=[f"results/benchmarks/simulate/B{B}_k{k}.tsv" for B, k in STUDY.runs("train")],
-        options=STUDY.choices_options,
-    message:
-        "time simulations, forecasts, lookup and POD-Galerkin on the test trajectories"
+        settings=as_json(
+            {
+                "models": ASKED_MODELS,
+                "data_benchmarks": benchmarks_of("simulate", trajectories("train")),
+                "tried": config["cost"]["choices"],
+            }
+        ),
     shell:
-        "sedfiber measure_choices --training {input.training} {params.tests} {params.models}"
-        " --data-benchmarks {params.data} --terminal-curve {input.curve} {params.options}"
-        " -o {output.table} --at-each-B {output.at_each_B} > {log} 2>&1"
+        "sedfiber measure_choices {input.training} --tests {input.tests} --terminal-curve {input.curve}"
+        " --settings {params.settings:q} -o {output.table} --at-each-B {output.at_each_B} > {log} 2>&1"
 
 
 rule measure_model_growth:
@@ -207,15 +171,9 @@ rule measure_model_growth:
         runtime=15,
     params:
         code=code_of("measure_model_growth"),
-        options=STUDY.model_growth_options,
-        autoencoder=as_json(config["cost"]["model_growth"]["autoencoder"]),
-        node=as_json(STUDY.short_node),
-    message:
-        "simulation against forecast with {wildcards.n_beads} beads"
+        settings=lambda wildcards: as_json(STUDY.model_growth_settings(wildcards.n_beads)),
     shell:
-        "sedfiber measure_model_growth --n-beads {wildcards.n_beads} {params.options}"
-        " --autoencoder-settings {params.autoencoder:q} --node-settings {params.node:q}"
-        " -o {output} > {log} 2>&1"
+        "sedfiber measure_model_growth --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule cost:

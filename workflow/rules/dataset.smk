@@ -11,18 +11,11 @@ rule solve_terminal_shapes:
         "results/benchmarks/solve_terminal_shapes/{split}.tsv"
     conda:
         "../../envs/simulate.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("solve_terminal_shapes"),
-        B=lambda wildcards: STUDY.B_values(wildcards.split),
-        options=STUDY.steady_options,
-    message:
-        "solve the terminal shapes of split {wildcards.split}"
+        settings=lambda wildcards: as_json(STUDY.terminal_shapes_settings(wildcards.split)),
     shell:
-        "sedfiber solve_terminal_shapes --B {params.B} {params.options} -o {output} > {log} 2>&1"
+        "sedfiber solve_terminal_shapes --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule solve_terminal_curve:
@@ -34,22 +27,16 @@ rule solve_terminal_curve:
         "results/benchmarks/solve_terminal_curve.tsv"
     conda:
         "../../envs/simulate.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("solve_terminal_curve"),
-        options=STUDY.terminal_curve_options,
-    message:
-        "solve the terminal shapes over the whole range of the training"
+        settings=as_json(STUDY.terminal_curve_settings),
     shell:
-        "sedfiber solve_terminal_curve {params.options} -o {output} > {log} 2>&1"
+        "sedfiber solve_terminal_curve --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule aggregate_dataset:
     input:
-        trajectories=lambda wildcards: trajectories(wildcards.split),
+        lambda wildcards: trajectories(wildcards.split),
     output:
         "results/dataset/{split}.parquet",
     log:
@@ -58,22 +45,18 @@ rule aggregate_dataset:
         "results/benchmarks/aggregate_dataset/{split}.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
     resources:
         mem_mb=2000,
-        runtime=10,
     params:
         code=code_of("aggregate_dataset"),
-    message:
-        "aggregate split {wildcards.split}"
+        settings=lambda wildcards: as_json({"split": wildcards.split}),
     shell:
-        "sedfiber aggregate_dataset --split {wildcards.split} {input.trajectories}"
-        " -o {output} > {log} 2>&1"
+        "sedfiber aggregate_dataset {input} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule tabulate_regimes:
     input:
-        splits=[test_files(split) for split in STUDY.splits],
+        [split_files(split) for split in STUDY.splits],
     output:
         "results/tables/regimes.csv",
     log:
@@ -82,17 +65,12 @@ rule tabulate_regimes:
         "results/benchmarks/tabulate_regimes.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
     resources:
         mem_mb=2000,
-        runtime=5,
     params:
         code=code_of("tabulate_regimes"),
-        splits=" ".join(" ".join(["--split", *test_files(split)]) for split in STUDY.splits),
-    message:
-        "tabulate how each fall turns and bends"
     shell:
-        "sedfiber tabulate_regimes {params.splits} -o {output} > {log} 2>&1"
+        "sedfiber tabulate_regimes {input} -o {output} > {log} 2>&1"
 
 
 rule dataset:

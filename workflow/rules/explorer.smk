@@ -17,15 +17,9 @@ rule make_explorer:
         "results/benchmarks/make_explorer.tsv"
     conda:
         "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
     params:
         code=code_of("make_explorer"),
         model=lambda wildcards, input: Path(input.model[0]).parent,
-    message:
-        "make the explorer"
     shell:
         "sedfiber make_explorer --model {params.model} --dataset {input.datasets} -o {output} > {log} 2>&1"
 

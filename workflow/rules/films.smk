@@ -15,22 +15,17 @@ rule film_forecast:
         "films"
     conda:
         "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
     params:
         code=code_of("film_forecast"),
-    message:
-        "film the forecast at B={wildcards.B}, theta0={wildcards.k}π/48"
+        settings=lambda wildcards: as_json({"B": wildcards.B, "angle_index": wildcards.k}),
     shell:
         "sedfiber film_forecast --truth {input.truth} --forecast {input.forecast}"
-        " --B {wildcards.B} --angle-index {wildcards.k} -o {output} > {log} 2>&1"
+        " --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule film_scene:
     input:
-        trajectory="results/scenes/{scene}.parquet",
+        "results/scenes/{scene}.parquet",
     output:
         "results/films/scenes/{scene}.webp",
     log:
@@ -41,17 +36,11 @@ rule film_scene:
         "films"
     conda:
         "../../envs/figures.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
     params:
         code=code_of("film_scene"),
-        title=lambda wildcards: wildcards.scene.replace("_", " "),
-    message:
-        "film scene {wildcards.scene}"
+        settings=lambda wildcards: as_json({"title": wildcards.scene.replace("_", " ")}),
     shell:
-        "sedfiber film_scene {input.trajectory} --title {params.title:q} -o {output} > {log} 2>&1"
+        "sedfiber film_scene {input} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule films:

@@ -3,9 +3,8 @@
 
 rule forecast_test_set:
     input:
+        truth=split_files("{split}"),
         model=model_files("results/models/node/{model}"),
-        dataset="results/dataset/{split}.parquet",
-        shapes="results/terminal_shapes/{split}.parquet",
     output:
         "results/forecasts/{model}/{split}.parquet",
     log:
@@ -14,26 +13,19 @@ rule forecast_test_set:
         "results/benchmarks/forecast_test_set/{model}_{split}.tsv"
     conda:
         "../../envs/learning.yaml"
-    threads: 1
     resources:
         mem_mb=4000,
-        runtime=10,
     params:
         code=code_of("forecast_test_set"),
         folder=lambda wildcards, input: Path(input.model[0]).parent,
-    message:
-        "forecast test set {wildcards.split} with {wildcards.model}"
     shell:
-        "sedfiber forecast_test_set --model {params.folder} --dataset {input.dataset}"
-        " --terminal-shapes {input.shapes} -o {output} > {log} 2>&1"
+        "sedfiber forecast_test_set {input.truth} --model {params.folder} -o {output} > {log} 2>&1"
 
 
 rule forecast_by_lookup:
     input:
-        training="results/dataset/train.parquet",
-        training_shapes="results/terminal_shapes/train.parquet",
-        dataset="results/dataset/{split}.parquet",
-        shapes="results/terminal_shapes/{split}.parquet",
+        truth=split_files("{split}"),
+        training=split_files("train"),
     output:
         "results/forecasts/lookup/{split}.parquet",
     log:
@@ -42,18 +34,12 @@ rule forecast_by_lookup:
         "results/benchmarks/forecast_by_lookup/{split}.tsv"
     conda:
         "../../envs/learning.yaml"
-    threads: 1
     resources:
         mem_mb=4000,
-        runtime=10,
     params:
         code=code_of("forecast_by_lookup"),
-    message:
-        "look up test set {wildcards.split} in splines through the training runs"
     shell:
-        "sedfiber forecast_by_lookup --training-dataset {input.training}"
-        " --training-shapes {input.training_shapes} --dataset {input.dataset}"
-        " --terminal-shapes {input.shapes} -o {output} > {log} 2>&1"
+        "sedfiber forecast_by_lookup {input.truth} --training {input.training} -o {output} > {log} 2>&1"
 
 
 rule forecasts:

@@ -3,8 +3,7 @@
 
 rule train_node:
     input:
-        dataset="results/dataset/train.parquet",
-        shapes="results/terminal_shapes/train.parquet",
+        training=split_files("train"),
         autoencoder=lambda wildcards: model_files(autoencoder_of(wildcards.model)),
     output:
         model_files("results/models/node/{model}"),
@@ -14,22 +13,16 @@ rule train_node:
         "results/benchmarks/train_node/{model}.tsv"
     conda:
         "../../envs/learning.yaml"
-    threads: 1
     resources:
         mem_mb=3000,
         runtime=60,
     params:
         code=code_of("train_node"),
         autoencoder=lambda wildcards: autoencoder_of(wildcards.model),
-        recipe=lambda wildcards: NODES[wildcards.model]["recipe"],
-        seed=lambda wildcards: NODES[wildcards.model]["seed"],
-        settings=lambda wildcards: as_json(config["node"][NODES[wildcards.model]["recipe"]]),
+        settings=lambda wildcards: as_json(STUDY.node_settings(wildcards.model)),
         folder=lambda wildcards, output: Path(output[0]).parent,
-    message:
-        "train neural ODE {wildcards.model}"
     shell:
-        "sedfiber train_node --dataset {input.dataset} --terminal-shapes {input.shapes}"
-        " --autoencoder {params.autoencoder} --recipe {params.recipe} --seed {params.seed}"
+        "sedfiber train_node {input.training} --autoencoder {params.autoencoder}"
         " --settings {params.settings:q} -o {params.folder} 2>&1 | tee {log}"
 
 
@@ -46,12 +39,6 @@ rule choose_forecast_model:
         "results/benchmarks/choose_forecast_model.tsv"
     conda:
         "../../envs/learning.yaml"
-    threads: 1
-    resources:
-        mem_mb=100,
-        runtime=1,
-    message:
-        "copy {input} to where `sedfiber forecast` looks"
     shell:
         "cp {input} results/models/forecast/ > {log} 2>&1"
 

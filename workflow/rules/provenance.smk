@@ -12,15 +12,9 @@ rule tabulate_timings:
         "results/benchmarks/tabulate_timings.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
     params:
         code=code_of("tabulate_timings"),
         benchmarks=benchmarks(),
-    message:
-        "sum the benchmark files by stage"
     shell:
         "sedfiber tabulate_timings {params.benchmarks} -o {output} > {log} 2>&1"
 
@@ -38,20 +32,13 @@ rule write_manifest:
         "results/benchmarks/write_manifest.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
     params:
         code=code_of("write_manifest"),
-        config=as_json(config),
-        commit=commit(),
+        settings=as_json({"config": config, "commit": commit()}),
         snakefile=here(BASE / "Snakefile"),
         configfiles=[str(path) for path in workflow.configfiles],
-    message:
-        "record where every result comes from"
     shell:
         "snakemake --snakefile {params.snakefile} --configfile {params.configfiles}"
         " --rulegraph dot 2> {log} | "
-        "sedfiber write_manifest --config {params.config:q} --commit {params.commit} --lock {input.lock}"
+        "sedfiber write_manifest --settings {params.settings:q} --lock {input.lock}"
         " --rule-graph - --outputs {input.results} {input.timings} -o {output} >> {log} 2>&1"

@@ -13,16 +13,10 @@ rule compare_published:
         "results/benchmarks/compare_published.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("compare_published"),
         fresh=lambda wildcards, input: Path(input.fresh[0]).parent,
         published=lambda wildcards, input: Path(input.published[0]).parent,
-    message:
-        "compare this run's numbers with the published ones"
     shell:
         "sedfiber compare_published --published {params.published} --fresh {params.fresh}"
         " -o {output} 2>&1 | tee {log}"

@@ -3,11 +3,11 @@
 
 rule tabulate_key_numbers:
     input:
-        trajectories="results/tables/trajectories.csv",
-        regimes="results/tables/regimes.csv",
-        reconstruction="results/tables/reconstruction.csv",
-        baselines="results/tables/baselines.csv",
-        lags="results/tables/lags.csv",
+        "results/tables/trajectories.csv",
+        "results/tables/regimes.csv",
+        "results/tables/reconstruction.csv",
+        "results/tables/baselines.csv",
+        "results/tables/lags.csv",
     output:
         "results/tables/key_numbers.csv",
     log:
@@ -16,22 +16,11 @@ rule tabulate_key_numbers:
         "results/benchmarks/tabulate_key_numbers.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("tabulate_key_numbers"),
-        model=FORECAST_MODEL,
-        variant=NODES[FORECAST_MODEL]["variant"],
-        angle_index=STUDY.shown_fall[1],
-    message:
-        "tabulate this run beside the source's claims"
+        settings=as_json(STUDY.key_numbers_settings),
     shell:
-        "sedfiber tabulate_key_numbers --trajectories {input.trajectories} --regimes {input.regimes}"
-        " --reconstruction {input.reconstruction} --baselines {input.baselines} --lags {input.lags}"
-        " --model {params.model} --variant {params.variant} --angle-index {params.angle_index}"
-        " -o {output} > {log} 2>&1"
+        "sedfiber tabulate_key_numbers {input} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule show_table:
@@ -52,14 +41,8 @@ rule show_table:
         "pages"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("show_table"),
-    message:
-        "table {wildcards.table} as a page"
     shell:
         "sedfiber show_table {input.table} -o {output} > {log} 2>&1"
 
@@ -80,13 +63,7 @@ rule show_manifest:
         "results/benchmarks/show_manifest.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("show_manifest"),
-    message:
-        "provenance as a page"
     shell:
         "sedfiber show_manifest {input.manifest} -o {output} > {log} 2>&1"

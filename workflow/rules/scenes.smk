@@ -12,40 +12,22 @@ rule simulate_scene:
         "results/benchmarks/simulate_scene/{scene}.tsv"
     conda:
         "../../envs/simulate.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("simulate"),
         file=lambda wildcards: scene_files(wildcards.scene)[0],
-    message:
-        "simulate scene {wildcards.scene}"
     shell:
         "sedfiber simulate {params.file} -o {output} > {log} 2>&1"
 
 
-rule tabulate_scene_audit:
+use rule tabulate_audit as tabulate_scene_audit with:
     input:
-        trajectories=expand("results/scenes/{scene}.parquet", scene=SCENES),
+        expand("results/scenes/{scene}.parquet", scene=SCENES),
     output:
         "results/tables/scene_audit.csv",
     log:
         "results/logs/tabulate_scene_audit.log",
     benchmark:
         "results/benchmarks/tabulate_scene_audit.tsv"
-    conda:
-        "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
-    params:
-        code=code_of("tabulate_audit"),
-    message:
-        "tabulate what the scenes left out"
-    shell:
-        "sedfiber tabulate_audit {input.trajectories} -o {output} > {log} 2>&1"
 
 
 rule scenes:
@@ -64,18 +46,11 @@ rule compare_third_dimension:
         "results/benchmarks/compare_third_dimension.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=10,
     params:
         code=code_of("compare_third_dimension"),
-        B=config["third_dimension"]["B"],
-        options=STUDY.third_dimension_options,
-    message:
-        "find where the third dimension begins to matter"
+        settings=as_json(STUDY.fiber | config["third_dimension"]),
     shell:
-        "sedfiber compare_third_dimension --B {params.B} {params.options}"
+        "sedfiber compare_third_dimension --settings {params.settings:q}"
         " -o {output.table} --growth {output.growth} > {log} 2>&1"
 
 
@@ -93,17 +68,11 @@ rule measure_effects:
         "results/benchmarks/measure_effects.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=10,
     params:
         code=code_of("measure_effects"),
-        options=STUDY.effects_options,
-    message:
-        "measure cost and influence of every effect"
+        settings=as_json(STUDY.fiber | config["effects"]),
     shell:
-        "sedfiber measure_effects {params.options} -o {output} > {log} 2>&1"
+        "sedfiber measure_effects --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule benchmark_parts:
@@ -115,14 +84,8 @@ rule benchmark_parts:
         "results/benchmarks/benchmark_parts.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("benchmark_parts"),
-    message:
-        "time the study's scene against a kernel written for it alone"
     shell:
         "sedfiber benchmark_parts -o {output} > {log} 2>&1"
 

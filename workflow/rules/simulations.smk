@@ -12,15 +12,9 @@ rule simulate:
         "simulations"
     conda:
         "../../envs/simulate.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("simulate"),
-        options=STUDY.simulate_options,
-    message:
-        "simulate B={wildcards.B}, theta0={wildcards.k}π/48"
+        options=SIMULATE_OPTIONS,
     shell:
         "sedfiber simulate --B {wildcards.B} --angle-index {wildcards.k} {params.options}"
         " -o {output} > {log} 2>&1"
@@ -37,24 +31,20 @@ rule tabulate_trajectories:
         "results/benchmarks/tabulate_trajectories.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
     resources:
         mem_mb=2000,
-        runtime=10,
     params:
         code=code_of("tabulate_trajectories"),
         splits=lambda wildcards, input: " ".join(
             f"--split {split} {' '.join(input[split])}" for split in STUDY.splits
         ),
-    message:
-        "tabulate all trajectories"
     shell:
         "sedfiber tabulate_trajectories {params.splits} -o {output} > {log} 2>&1"
 
 
 rule tabulate_audit:
     input:
-        trajectories=[trajectories(split) for split in STUDY.splits],
+        [trajectories(split) for split in STUDY.splits],
     output:
         "results/tables/audit.csv",
     log:
@@ -63,16 +53,10 @@ rule tabulate_audit:
         "results/benchmarks/tabulate_audit.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
     params:
         code=code_of("tabulate_audit"),
-    message:
-        "tabulate what the study's scene left out"
     shell:
-        "sedfiber tabulate_audit {input.trajectories} -o {output} > {log} 2>&1"
+        "sedfiber tabulate_audit {input} -o {output} > {log} 2>&1"
 
 
 rule simulations:
@@ -84,7 +68,7 @@ rule simulations:
 
 rule check_simulation:
     input:
-        trajectory="results/trajectories/B{B}_k{k}.parquet",
+        "results/trajectories/B{B}_k{k}.parquet",
     output:
         "results/checks/B{B}_k{k}.json",
     log:
@@ -95,26 +79,16 @@ rule check_simulation:
         "checks"
     conda:
         "../../envs/simulate.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=10,
     params:
         code=code_of("check_simulation"),
-        options=as_options(config["check"]),
-    message:
-        "check B={wildcards.B}, theta0={wildcards.k}π/48 against {params.options}"
+        settings=as_json(config["check"]),
     shell:
-        "sedfiber check_simulation {input.trajectory} {params.options} -o {output} > {log} 2>&1"
+        "sedfiber check_simulation {input} --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule tabulate_checks:
     input:
-        checks=[
-            f"results/checks/B{B}_k{k}.json"
-            for split in STUDY.splits
-            for B, k in STUDY.runs(split)
-        ],
+        [f"results/checks/B{B}_k{k}.json" for split in STUDY.splits for B, k in STUDY.runs(split)],
     output:
         "results/tables/simulation_checks.csv",
     log:
@@ -123,16 +97,10 @@ rule tabulate_checks:
         "results/benchmarks/tabulate_checks.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("tabulate_checks"),
-    message:
-        "tabulate the checks of all trajectories"
     shell:
-        "sedfiber tabulate_checks {input.checks} -o {output} > {log} 2>&1"
+        "sedfiber tabulate_checks {input} -o {output} > {log} 2>&1"
 
 
 rule check_simulations:

@@ -11,17 +11,11 @@ rule trace_states:
         "results/benchmarks/trace_states.tsv"
     conda:
         "../../envs/analysis.yaml"
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code_of("trace_states"),
-        options=STUDY.states_options,
-    message:
-        "trace the steady states and find where they are stable"
+        settings=as_json(STUDY.fiber | config["states"]),
     shell:
-        "sedfiber trace_states {params.options}"
+        "sedfiber trace_states --settings {params.settings:q}"
         " -o {output.table} --thresholds {output.thresholds} > {log} 2>&1"
 
 

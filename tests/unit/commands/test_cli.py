@@ -263,7 +263,7 @@ def test_what_needs_torch_says_so_where_it_is_not(tmp_path):
     """`pip install .` leaves it out: one line on how to get it, before anything else."""
     program = (
         "import sys; sys.modules['torch'] = None; from sedfiber.commands.cli import main; "
-        "sys.exit(main(['train_node', '--dataset', 'd.parquet']))"
+        "sys.exit(main(['train_node', 'd.parquet']))"
     )
     run = run_process("-c", program, cwd=tmp_path)
     assert run.returncode == 1 and run.stderr.count("\n") == 1

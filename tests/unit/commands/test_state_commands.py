@@ -1,22 +1,24 @@
 """`trace_states` and its figure on a fiber of seven beads: tables, figure, refusals."""
 
+import json
+
 import pandas as pd
 import pytest
 
 from figure_command import draw_words
 from sedfiber.commands.cli import main
 
-FEW = ["--n-beads", "7", "--B-min", "10", "--B-max", "2000", "--per-decade", "2"]
+FEW = {"n_beads": 7, "B_min": 10, "B_max": 2000, "per_decade": 2, "hydrodynamics": "RPY"}
 COLUMNS = [
     "branch", "B", "speed", "height", "end_to_end", "length", "residual", "in_plane_rate", "in_plane_symmetric_rate",
     "in_plane_measured", "out_of_plane_rate", "out_of_plane_measured", "stable_in_plane", "stable_in_volume",
 ]  # fmt: skip
 
 
-def trace(folder, words=FEW):
+def trace(folder, settings=FEW):
     """Exit status of the command that writes states.csv and thresholds.csv."""
     files = ["-o", str(folder / "states.csv"), "--thresholds", str(folder / "thresholds.csv")]
-    return main(["trace_states", *words, *files])
+    return main(["trace_states", "--settings", json.dumps(settings), *files])
 
 
 def draw(folder):
@@ -77,28 +79,28 @@ def test_a_second_run_gives_the_same_bytes(tables, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("option", "value", "key"),
+    ("key", "value"),
     [
-        *[("--B-min", value, "B_min") for value in ("0", "-1", "nan", "low")],
-        *[("--B-max", value, "B_max") for value in ("inf", "10", "5", "high")],
-        *[("--per-decade", value, "per_decade") for value in ("0", "2.5", "many", "10000")],
-        *[("--n-beads", value, "n_beads") for value in ("8", "x")],
-        ("--hydrodynamics", "Stokes", "hydrodynamics"),
+        *[("B_min", value) for value in (0, -1, "nan", "low")],
+        *[("B_max", value) for value in ("inf", 10, 5, "high")],
+        *[("per_decade", value) for value in (0, 2.5, "many", 10000)],
+        *[("n_beads", value) for value in (8, "x")],
+        ("hydrodynamics", "Stokes"),
     ],
 )
-def test_bad_values_are_refused_in_one_line(tmp_path, capsys, option, value, key):
+def test_bad_values_are_refused_in_one_line(tmp_path, capsys, key, value):
     """Key, and what is allowed; nothing is written."""
-    assert trace(tmp_path, [*FEW, f"{option}={value}"]) == 1
+    assert trace(tmp_path, FEW | {key: value}) == 1
     said = capsys.readouterr()
     assert said.err.startswith(f"sedfiber trace_states: {key}: ") and said.err.count("\n") == 1
     assert " is not allowed; give " in said.err and said.out == ""
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("words", [["--hydrodynamics", "none"], ["--n-beads", "1"]])
-def test_a_fiber_without_a_terminal_shape_is_refused(tmp_path, capsys, words):
+@pytest.mark.parametrize("settings", [{"hydrodynamics": "none"}, {"n_beads": 1}])
+def test_a_fiber_without_a_terminal_shape_is_refused(tmp_path, capsys, settings):
     """Without hydrodynamic interactions it falls as it is, and one bead has no shape."""
-    assert trace(tmp_path, [*FEW, *words]) == 1
+    assert trace(tmp_path, FEW | settings) == 1
     said = capsys.readouterr().err
     assert "no terminal shape" in said and said.count("\n") == 1
     assert list(tmp_path.iterdir()) == []

@@ -1,5 +1,6 @@
 """Films: their frames, size and duration, the same bytes twice, bad input refused in one line."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -44,8 +45,8 @@ def film(tmp_path):
 
     def run(B="1000", k="3", output="film.webp"):
         files = [str(tmp_path / name) for name in ("truth.parquet", "forecast.parquet", output)]
-        words = ["--truth", files[0], "--forecast", files[1], "--B", B, "--angle-index", k, "-o", files[2]]
-        return main(["film_forecast", *words]), tmp_path / output
+        words = ["--truth", files[0], "--forecast", files[1], "-o", files[2]]
+        return main(["film_forecast", "--settings", json.dumps({"B": B, "angle_index": k}), *words]), tmp_path / output
 
     return run
 
@@ -132,8 +133,8 @@ def test_every_kind_of_scene_is_filmed_twice_alike(kind, tmp_path):
     write_trajectory(run, tmp_path / "run.parquet")
     films = []
     for name in ("one.webp", "two.webp"):
-        words = ["film_scene", str(tmp_path / "run.parquet"), "--title", kind, "-o", str(tmp_path / name)]
-        assert main(words) == 0
+        words = [str(tmp_path / "run.parquet"), "--settings", json.dumps({"title": kind}), "-o", str(tmp_path / name)]
+        assert main(["film_scene", *words]) == 0
         films.append((tmp_path / name).read_bytes())
     assert films[0] == films[1] and moments(tmp_path / "one.webp")[0][0] == WIDTH
 

@@ -1,5 +1,7 @@
 """Figures of the study itself, on four falls of seven beads: the same bytes twice, the right things drawn."""
 
+import json
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -41,9 +43,9 @@ def study(tmp_path_factory):
         call("simulate", "--n-beads", N, "--B", B, "--angle-index", k, "-o", path)
     data, shapes = folder / "data.parquet", folder / "shapes.parquet"
     files = [path for *_, path in runs]
-    call("aggregate_dataset", *files, "--split", "train", "-o", data)
-    call("solve_terminal_shapes", "--n-beads", N, "--B", *B_VALUES, "-o", shapes)
-    call("tabulate_regimes", "--split", data, shapes, "-o", folder / "regimes.csv")
+    call("aggregate_dataset", *files, "--settings", '{"split": "train"}', "-o", data)
+    call("solve_terminal_shapes", "--settings", json.dumps({"n_beads": N, "B": B_VALUES}), "-o", shapes)
+    call("tabulate_regimes", data, shapes, "-o", folder / "regimes.csv")
     call("tabulate_trajectories", "--split", "train", *files, "-o", folder / "trajectories.csv")
     return folder
 

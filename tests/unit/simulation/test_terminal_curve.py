@@ -53,6 +53,7 @@ def test_refuses_what_it_cannot_follow(tmp_path, capsys):
     assert main(["simulate", "--B", "100", "--theta0", "0", "--t-end", "1", "-o", str(tmp_path / "run.parquet")]) == 0
     with pytest.raises(InputError, match="holds no terminal curve"):
         read_terminal_curve(tmp_path / "run.parquet")
-    assert main(["solve_terminal_curve", "--B-min", "-1", "--B-max", "9", "-o", str(tmp_path / "curve.parquet")]) == 1
+    words = ["--settings", '{"B_min": -1, "B_max": 9}', "-o", str(tmp_path / "curve.parquet")]
+    assert main(["solve_terminal_curve", *words]) == 1
     assert "B" in capsys.readouterr().err
     assert not (tmp_path / "curve.parquet").exists()

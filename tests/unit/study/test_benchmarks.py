@@ -53,7 +53,8 @@ def test_effects_table_compares_with_the_scene_as_it_is(tmp_path, monkeypatch):
     chosen = ("the study's scene", "Oseen", "no bending", "contact", "gravity 1 % stronger")
     monkeypatch.setattr(effects_table, "CHANGES", {name: effects_table.CHANGES[name] for name in chosen})
     path = tmp_path / "effects.csv"
-    assert main(["measure_effects", "--B", "1000", "--angle-index", "12", "--n-beads", "11", "-o", str(path)]) == 0
+    settings = '{"B": 1000, "angle_index": 12, "n_beads": 11}'
+    assert main(["measure_effects", "--settings", settings, "-o", str(path)]) == 0
     table = pd.read_csv(path).set_index("effect")
     first = table.loc["the study's scene"]
     assert first["rhs_ratio"] == first["run_ratio"] == 1.0

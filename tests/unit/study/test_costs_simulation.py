@@ -1,5 +1,6 @@
 """What accuracy costs: the tables count, compare and list what they promise.  Nothing here depends on seconds."""
 
+import json
 import time
 
 import numpy as np
@@ -286,20 +287,21 @@ def test_growth_of_cost(discretised):
 # commands
 
 
-def sedfiber(*words):
-    """Exit status of the command."""
-    return main([str(word) for word in words])
+def sedfiber(command, settings, *words):
+    """Exit status of the step."""
+    return main([command, "--settings", json.dumps(settings), *map(str, words)])
 
 
 def test_commands_write_their_tables(tmp_path, monkeypatch, capsys):
     """Counts as whole numbers, also beside rows without any."""
     monkeypatch.setattr(integrators, "METHODS", METHODS[:1])
     paths = [tmp_path / f"{name}.csv" for name in "abcd"]
-    fall = ("--B", SOFT, "--angle-index", ANGLE, "--n-beads", FEW_BEADS)
-    assert sedfiber("measure_integrators", *fall, "--tolerances", "1e-3", "1e-5", "-o", paths[0]) == 0
-    grids = ("--B", 300, 100, "--angle-index", 2, "--B", 200, "--angle-index", 3, 5)
-    assert sedfiber("measure_trajectories", *grids, "--n-beads", 7, "--tolerances", "1e-4", "-o", paths[1]) == 0
-    assert sedfiber("measure_discretisation", "--n-beads", 5, 9, "-o", paths[2], "--growth", paths[3]) == 0
+    fall = {"B": SOFT, "angle_index": ANGLE, "n_beads": FEW_BEADS, "tolerances": [1e-3, 1e-5]}
+    assert sedfiber("measure_integrators", fall, "-o", paths[0]) == 0
+    splits = [{"B": [300, 100], "angle_index": [2]}, {"B": [200], "angle_index": [3, 5]}]
+    falls = {"splits": splits, "n_beads": 7, "tolerances": [1e-4]}
+    assert sedfiber("measure_trajectories", falls, "-o", paths[1]) == 0
+    assert sedfiber("measure_discretisation", {"n_beads": [5, 9]}, "-o", paths[2], "--growth", paths[3]) == 0
     tables = [pd.read_csv(path) for path in paths]
     assert [len(table) for table in tables] == [2, 4, 8, 0]
     assert tables[1][["B", "angle_index"]].values.tolist() == [[300, 2], [100, 2], [200, 3], [200, 5]]
@@ -308,23 +310,26 @@ def test_commands_write_their_tables(tmp_path, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize(
-    "command, words, named",
+    "command, settings, words, named",
     [
-        ("measure_integrators", ["--B", "0", "--angle-index", "3"], "B"),
-        ("measure_integrators", ["--B", "100", "--angle-index", "99"], "angle_index"),
-        ("measure_integrators", ["--B", "100", "--angle-index", "3", "--tolerances", "2"], "tolerances"),
-        ("measure_integrators", ["--B", "100", "--angle-index", "3", "--limit", "nan"], "limit"),
-        ("measure_trajectories", ["--B", "100", "--angle-index", "3", "--B", "200"], "angle_index"),
-        ("measure_trajectories", ["--B", "100", "--angle-index", "3", "--tolerances", "1e-11"], "tolerances"),
-        ("measure_discretisation", ["--n-beads", "4", "--growth", "growth.csv"], "n_beads"),
-        ("measure_discretisation", ["--growth", "missing/growth.csv"], "output"),
-        ("measure_discretisation", ["--growth", "out.csv"], "growth"),
+        ("measure_integrators", {"B": 0, "angle_index": 3}, [], "B"),
+        ("measure_integrators", {"angle_index": 3}, [], "B"),
+        ("measure_integrators", {"B": 100, "angle_index": 99}, [], "angle_index"),
+        ("measure_integrators", {"B": 100, "angle_index": 3, "tolerances": [2]}, [], "tolerances"),
+        ("measure_integrators", {"B": 100, "angle_index": 3, "limit": "nan"}, [], "limit"),
+        ("measure_integrators", {"B": 100, "angle_index": 3, "limits": 1}, [], "settings"),
+        ("measure_trajectories", {"splits": [{"B": [100]}]}, [], "angle_index"),
+        ("measure_trajectories", {"splits": [], "tolerances": [1e-11]}, [], "tolerances"),
+        ("measure_discretisation", {"n_beads": [4]}, ["--growth", "growth.csv"], "n_beads"),
+        ("measure_discretisation", {}, ["--growth", "missing/growth.csv"], "output"),
+        ("measure_discretisation", {}, ["--growth", "out.csv"], "growth"),
+        ("measure_discretisation", [], ["--growth", "growth.csv"], "settings"),
     ],
 )
-def test_commands_refuse_in_one_line(tmp_path, monkeypatch, capsys, command, words, named):
+def test_commands_refuse_in_one_line(tmp_path, monkeypatch, capsys, command, settings, words, named):
     """Before any work is done, naming the key."""
     monkeypatch.chdir(tmp_path)
-    assert sedfiber(command, *words, "-o", "out.csv") == 1
+    assert sedfiber(command, settings, *words, "-o", "out.csv") == 1
     said = capsys.readouterr().err
     assert said.startswith(f"sedfiber {command}: {named}: ") and said.count("\n") == 1
     assert not list(tmp_path.iterdir())

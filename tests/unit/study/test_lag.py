@@ -1,5 +1,6 @@
 """The lag of a forecast, on a fiber that turns and bends as known, late or early by a known time."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -101,7 +102,7 @@ def test_other_trajectories_are_refused():
         lag_rows(WHO, Dataset((fall(angle_index=1),)), Dataset((fall(angle_index=3),)))
 
 
-def tabulate(folder, *words):
+def tabulate(folder, *who):
     """Run the command on one trajectory of each set and forecasts of it, 0.4 early; its exit status."""
     steady = {"B": np.array([100.0])} | {f"velocity_{axis}": np.zeros(1) for axis in "xyz"}
     write_table(folder / "shapes.parquet", steady | coordinate_columns(fall().terminal[None]), {})
@@ -109,13 +110,14 @@ def tabulate(folder, *words):
         write_dataset([fall(split=split)], folder / f"{split}.parquet")
         write_dataset([fall(-0.4, split)], folder / f"forecast_{split}.parquet")
     files = {name: str(folder / f"{name}.parquet") for name in ("A", "B", "shapes", "forecast_A", "forecast_B")}
-    truth = ["--truth", files["A"], files["B"], "--shapes", files["shapes"], files["shapes"]]
-    who = ["--forecaster", *words, files["forecast_A"], files["forecast_B"]]
-    return main(["tabulate_lags", *truth, *who, "-o", str(folder / "lags.csv")])
+    truth = ["--truth", files["A"], files["shapes"], files["B"], files["shapes"]]
+    forecasts = ["--forecasts", files["forecast_A"], files["forecast_B"]]
+    settings = ["--settings", json.dumps({"forecasters": [who]})]
+    return main(["tabulate_lags", *truth, *forecasts, *settings, "-o", str(folder / "lags.csv")])
 
 
 def test_the_command_writes_a_row_for_each_trajectory(tmp_path):
-    assert tabulate(tmp_path, "ours", "rollout", "4") == 0
+    assert tabulate(tmp_path, "ours", "rollout", 4) == 0
     table = pd.read_csv(tmp_path / "lags.csv")
     assert list(table["test_set"]) == ["A", "B"]
     assert set(table["recipe"]) == {"rollout"} and set(table["latent_dim"]) == {4}
@@ -123,7 +125,7 @@ def test_the_command_writes_a_row_for_each_trajectory(tmp_path):
 
 
 def test_the_command_refuses_an_unknown_recipe_in_one_line(tmp_path, capsys):
-    assert tabulate(tmp_path, "ours", "guess", "4") == 1
+    assert tabulate(tmp_path, "ours", "guess", 4) == 1
     message = capsys.readouterr().err
-    assert "'ours guess 4" in message and message.count("\n") == 1
+    assert "recipe: 'guess' is not allowed" in message and message.count("\n") == 1
     assert not (tmp_path / "lags.csv").exists()

@@ -118,12 +118,14 @@ def test_the_table_has_a_row_for_each_fall(tmp_path):
     """Of every split, with the numbers that were measured."""
     words = ["--n-beads", "7", "--B", "1000"]
     assert main(["simulate", *words, "--angle-index", "12", "-o", str(tmp_path / "run.parquet")]) == 0
-    assert main(["solve_terminal_shapes", *words, "-o", str(tmp_path / "shapes.parquet")]) == 0
+    shapes = ["--settings", '{"n_beads": 7, "B": [1000]}', "-o", str(tmp_path / "shapes.parquet")]
+    assert main(["solve_terminal_shapes", *shapes]) == 0
     splits = []
     for label in ("train", "A"):
         data = tmp_path / f"{label}.parquet"
-        assert main(["aggregate_dataset", str(tmp_path / "run.parquet"), "--split", label, "-o", str(data)]) == 0
-        splits += ["--split", str(data), str(tmp_path / "shapes.parquet")]
+        settings = ["--settings", f'{{"split": "{label}"}}', "-o", str(data)]
+        assert main(["aggregate_dataset", str(tmp_path / "run.parquet"), *settings]) == 0
+        splits += [str(data), str(tmp_path / "shapes.parquet")]
     assert main(["tabulate_regimes", *splits, "-o", str(tmp_path / "regimes.csv")]) == 0
     table = pd.read_csv(tmp_path / "regimes.csv")
     assert table["split"].tolist() == ["train", "A"]

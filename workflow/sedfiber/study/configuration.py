@@ -1,4 +1,4 @@
-"""The study's configuration, validated, and what it asks for in words of the command."""
+"""The study's configuration, validated, and the settings of each step."""
 
 import re
 import sys
@@ -12,7 +12,6 @@ from sedfiber.study.config_schema import validate
 
 SPLITS = ("train", "A", "B")
 SCENE_NAME = r"\w[\w-]*"  # what rules know for a scene in the names of files
-_RUN_KEYS = ("B", "angle_index")
 
 
 @dataclass(frozen=True)
@@ -84,36 +83,46 @@ class Study:
         return number_name(shown["B"]), shown["angle_index"]
 
     @property
-    def simulate_options(self) -> str:
-        """Options of ``sedfiber simulate`` that all runs share."""
-        return as_options(self.config["scene"] | self.config["simulation"])
+    def simulation_settings(self) -> dict[str, Any]:
+        """What all runs of ``sedfiber simulate`` share."""
+        return self.config["scene"] | self.config["simulation"]
 
     @property
-    def steady_options(self) -> str:
-        """Options of ``sedfiber solve_terminal_shapes``."""
-        return as_options(self._fiber)
+    def fiber(self) -> dict[str, Any]:
+        """Beads and hydrodynamics, as all that the study does without ``simulate`` takes them."""
+        scene = self.config["scene"]
+        return {key: scene[key] for key in ("n_beads", "hydrodynamics")}
+
+    def terminal_shapes_settings(self, split: str) -> dict[str, Any]:
+        """Of ``solve_terminal_shapes``."""
+        return self.fiber | {"B": self.B_values(split)}
 
     @property
-    def terminal_curve_options(self) -> str:
-        """Options of ``sedfiber solve_terminal_curve``: the range of the training."""
+    def terminal_curve_settings(self) -> dict[str, Any]:
+        """Of ``solve_terminal_curve``: the range of the training."""
         B = self.config["study"]["train"]["B"]
-        return as_options({"B_min": min(B), "B_max": max(B)} | self._fiber)
+        return self.fiber | {"B_min": min(B), "B_max": max(B)}
+
+    def autoencoder_settings(self, variant: str, dim: str, seed: str) -> dict[str, Any]:
+        """Of ``train_autoencoder``."""
+        settings = self.config["autoencoders"]["settings"]
+        return {"variant": variant, "latent_dim": dim, "seed": seed, "settings": settings}
+
+    def node_settings(self, model: str) -> dict[str, Any]:
+        """Of ``train_node`` for one of the study's models."""
+        node = self.config["node"]["models"][model]
+        return {key: node[key] for key in ("recipe", "seed")} | {"settings": self.config["node"][node["recipe"]]}
+
+    def short_node_settings(self, seed: str) -> dict[str, Any]:
+        """Of ``train_node`` for a model trained in short."""
+        return {"recipe": "rollout", "seed": seed, "settings": self.short_node}
 
     @property
-    def third_dimension_options(self) -> str:
-        """Options of ``sedfiber compare_third_dimension`` but for ℬ."""
-        how = {key: value for key, value in self.config["third_dimension"].items() if key != "B"}
-        return as_options(self._fiber | how)
-
-    @property
-    def states_options(self) -> str:
-        """Options of ``sedfiber trace_states``."""
-        return as_options(self._fiber | self.config["states"])
-
-    @property
-    def effects_options(self) -> str:
-        """Options of ``sedfiber measure_effects``."""
-        return as_options(self._fiber | self.config["effects"])
+    def key_numbers_settings(self) -> dict[str, Any]:
+        """Of ``tabulate_key_numbers``: the forecast model, and the angle of the falls that the figures show."""
+        model = self.config["node"]["forecast_model"]
+        variant = self.config["node"]["models"][model]["variant"]
+        return {"model": model, "variant": variant, "angle_index": self.config["figures"]["angle_index"]}
 
     @property
     def integrator_runs(self) -> list[tuple[str, int]]:
@@ -121,22 +130,16 @@ class Study:
         cases = self.config["cost"]["integrators"]
         return [(number_name(B), k) for B in cases["B"] for k in cases["angle_index"]]
 
-    @property
-    def integrators_options(self) -> str:
-        """Options of ``sedfiber measure_integrators`` but for ℬ and k."""
-        how = {key: value for key, value in self.config["cost"]["integrators"].items() if key not in _RUN_KEYS}
-        return as_options({"n_beads": self.config["scene"]["n_beads"]} | how)
+    def integrator_settings(self, B: str, k: str) -> dict[str, Any]:
+        """Of ``measure_integrators`` for one fall."""
+        given = self.config["cost"]["integrators"] | {"B": B, "angle_index": k}
+        return given | {"n_beads": self.config["scene"]["n_beads"]}
 
     @property
-    def trajectories_options(self) -> str:
-        """Options of ``sedfiber measure_trajectories``: every fall of the study."""
-        splits = [as_options({key: self.config["study"][split][key] for key in _RUN_KEYS}) for split in SPLITS]
-        return " ".join([*splits, as_options({"n_beads": self.config["scene"]["n_beads"]})])
-
-    @property
-    def choices_options(self) -> str:
-        """Options of ``sedfiber measure_choices`` that say what is tried."""
-        return as_options(self.config["cost"]["choices"])
+    def trajectories_settings(self) -> dict[str, Any]:
+        """Of ``measure_trajectories``: every fall of the study."""
+        splits = [self.config["study"][split] for split in SPLITS]
+        return {"splits": splits, "n_beads": self.config["scene"]["n_beads"]}
 
     @property
     def short_models(self) -> list[tuple[str, int, int]]:
@@ -152,16 +155,9 @@ class Study:
         """Hyper-parameters of a neural ODE trained in short: the study's with the changes of ``cost.models``."""
         return self.config["node"]["rollout"] | self.config["cost"]["models"]["node"]
 
-    @property
-    def model_growth_options(self) -> str:
-        """Options of ``sedfiber measure_model_growth`` but for the number of beads and the trainings."""
-        given = self.config["cost"]["model_growth"]
-        return as_options({key: given[key] for key in ("B", "angle_index", "asked_index", "latent_dim")})
-
-    @property
-    def _fiber(self) -> dict[str, Any]:
-        scene = self.config["scene"]
-        return {key: scene[key] for key in ("n_beads", "hydrodynamics")}
+    def model_growth_settings(self, n_beads: str) -> dict[str, Any]:
+        """Of ``measure_model_growth`` at one number of beads."""
+        return self.config["cost"]["model_growth"] | {"n_beads": n_beads, "node": self.short_node}
 
 
 def scene_names(folder: Path) -> list[str]:
@@ -179,13 +175,3 @@ def scene_names(folder: Path) -> list[str]:
 def number_name(value: float) -> str:
     """A number as file names hold it: all its digits, no trailing ``.0``."""
     return str(int(value)) if float(value).is_integer() else repr(float(value))
-
-
-def as_options(values: dict[str, Any]) -> str:
-    """``{"n_beads": 31, "json": True}`` as ``--n-beads 31 --json``; what is false is left out."""
-    words = [(f"--{key.replace('_', '-')}", value) for key, value in values.items() if value is not False]
-    return " ".join(option if value is True else f"{option} {_word(value)}" for option, value in words)
-
-
-def _word(value: Any) -> str:
-    return " ".join(map(str, value)) if isinstance(value, list) else str(value)

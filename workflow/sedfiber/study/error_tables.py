@@ -11,6 +11,7 @@ from sedfiber.reduced.dataset import Dataset
 from sedfiber.reduced.measures import ForecastError, ensemble_mean, forecast_error
 from sedfiber.simulation.trajectory import Trajectory
 
+RECIPES = ("rollout", "source", "lookup")  # how a forecaster came to be
 TIME_FRACTIONS = np.linspace(0.0, 1.0, 201)  # of the settling period of each trajectory
 
 

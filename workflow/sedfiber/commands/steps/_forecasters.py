@@ -1,44 +1,41 @@
-"""Options and steps of the commands that judge several forecasters on several test splits."""
+"""Arguments of the steps that judge several forecasters on several test splits."""
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from sedfiber.commands.steps._data import add_splits, read_splits
+from sedfiber.commands.steps._settings import made_from
 from sedfiber.core.errors import InputError
+from sedfiber.core.validation import one_of
 from sedfiber.reduced.dataset import Dataset, read_dataset
-from sedfiber.study.error_tables import ModelLabel
-
-_RECIPES = ("rollout", "source", "lookup")
+from sedfiber.study.error_tables import RECIPES, ModelLabel
 
 
 def add_forecaster_arguments(parser: argparse.ArgumentParser) -> None:
-    """True splits, and forecasts of each by each forecaster."""
-    parser.add_argument("--truth", nargs="+", type=Path, required=True, help="Parquet files of the test splits")
-    parser.add_argument("--shapes", nargs="+", type=Path, required=True, help="their steady shapes, in order")
+    """True splits, forecasts of each by each forecaster, and who the forecasters are."""
+    add_splits(parser, "--truth", "test splits")
     parser.add_argument(
-        "--forecaster",
-        nargs="+",
-        action="append",
-        required=True,
-        metavar="WORD",
-        help="name, recipe (rollout, source or lookup), latent dimension or -, forecasts of each split in order",
+        "--forecasts", nargs="+", type=Path, required=True, help="forecasts of each split in order, by each forecaster"
+    )
+    parser.add_argument(
+        "--settings", required=True, help="JSON object: forecasters, a list of [name, recipe, latent dimension or null]"
     )
 
 
 def read_forecasts(args: argparse.Namespace) -> Iterator[tuple[ModelLabel, Dataset, Dataset]]:
     """Label, truth and forecast, split by split; the truth of each split is read once.
 
-    Raises InputError for words that are no forecaster.
+    Raises InputError for settings that name no forecasters, and for another number of forecasts.
     """
-    truths = [read_dataset(*pair) for pair in zip(args.truth, args.shapes, strict=True)]
-    for words in args.forecaster:
-        who, paths = _label_and_paths(words, len(truths))
-        for truth, shapes, path in zip(truths, args.shapes, paths, strict=True):
-            yield who, truth, read_dataset(path, shapes)
+    who, truths, shapes = made_from(args.settings, _forecasters), read_splits(args.truth), args.truth[1::2]
+    if len(args.forecasts) != len(who) * len(truths):
+        raise InputError(f"forecasts: {len(args.forecasts)} files are not allowed; give {len(who) * len(truths)}")
+    paths = iter(args.forecasts)
+    for one in who:
+        for truth, terminal in zip(truths, shapes, strict=True):
+            yield one, truth, read_dataset(next(paths), terminal)
 
 
-def _label_and_paths(words: list[str], n_splits: int) -> tuple[ModelLabel, list[Path]]:
-    if len(words) != 3 + n_splits or words[1] not in _RECIPES:
-        raise InputError(f"forecaster: {' '.join(words)!r} is not allowed; give name, recipe, dimension, files")
-    name, recipe, dim, *paths = words
-    return ModelLabel(name, recipe, None if dim == "-" else int(dim)), [Path(path) for path in paths]
+def _forecasters(forecasters: Sequence[Sequence]) -> list[ModelLabel]:
+    return [ModelLabel(name, one_of("recipe", recipe, RECIPES), dim) for name, recipe, dim in forecasters]

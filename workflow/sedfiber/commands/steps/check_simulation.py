@@ -2,12 +2,13 @@
 
 import argparse
 import json
+from dataclasses import dataclass
 from pathlib import Path
 
+from sedfiber.commands.steps._settings import add_settings_and_output, made_from
 from sedfiber.core.atomic_file import require_writable, write_text
 from sedfiber.core.errors import NumericalError
 from sedfiber.core.validation import positive_number
-from sedfiber.physics.integrators import INTEGRATORS
 from sedfiber.scene.numerics import Numerics
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.differences import largest_distance
@@ -15,22 +16,29 @@ from sedfiber.simulation.run import simulate
 from sedfiber.simulation.trajectory_file import read_trajectory
 
 
+@dataclass(frozen=True)
+class Check:
+    """The second method, its relative and absolute tolerance, and the largest difference allowed, over L."""
+
+    integrator: str
+    tolerance: float
+    bound: float
+
+
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The run, the second method, and how far the two may differ."""
     parser.add_argument("trajectory", type=Path, help="trajectory file to check")
-    parser.add_argument("--integrator", default="Radau", help=f"{', '.join(INTEGRATORS)} (Radau)")
-    parser.add_argument("--tolerance", default=1e-10, help="relative and absolute tolerance (1e-10)")
-    parser.add_argument("--bound", default=1e-4, help="largest difference allowed, over L (1e-4)")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="JSON file to write")
+    add_settings_and_output(parser, "JSON file to write")
 
 
 def run(args: argparse.Namespace) -> None:
     """Simulate again to the same end, compare at every sample, write or fail."""
     require_writable(args.output)
-    bound, tolerance = positive_number("bound", args.bound), positive_number("tolerance", args.tolerance)
+    check = made_from(args.settings, Check)
+    bound, tolerance = positive_number("bound", check.bound), positive_number("tolerance", check.tolerance)
     first = read_trajectory(args.trajectory)
     values = {key: value for key, value in first.metadata["scene"].items() if key != "start_angle"}
-    numerics = Numerics(args.integrator, tolerance, tolerance, first.metadata["numerics"]["interval"])
+    numerics = Numerics(check.integrator, tolerance, tolerance, first.metadata["numerics"]["interval"])
     second = simulate(Scene.from_dict(values), numerics, t_end=float(first.t[-1]))
     difference = largest_distance(first.positions, second.positions, first.length)
     if not difference <= bound:
@@ -38,7 +46,7 @@ def run(args: argparse.Namespace) -> None:
     facts = {
         "B": first.metadata["B"],
         "angle_index": first.metadata["angle_index"],
-        "integrator": args.integrator,
+        "integrator": check.integrator,
         "tolerance": tolerance,
         "difference": difference,
         "bound": bound,

@@ -1,11 +1,14 @@
 """``sedfiber compare_third_dimension``: out-of-plane growth at each ℬ, predicted and run; where it turns."""
 
 import argparse
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 
+from sedfiber.commands.steps._settings import add_settings_and_output, made_from
 from sedfiber.core.atomic_file import require_writable
 from sedfiber.core.csv_file import write_csv
 from sedfiber.core.validation import positive_number
@@ -18,23 +21,15 @@ NEAR = 1e-3  # how near to the threshold, to both sides, the runs in volume stil
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Where to look, how, and the two tables to write."""
-    parser.add_argument("--B", nargs="+", required=True, help="elasto-gravitational numbers, the threshold among them")
-    parser.add_argument("--theta0", default=0.7853981633974483, help="start of the runs, radians (π/4)")
-    parser.add_argument("--n-beads", default=Scene.n_beads, help=f"odd number of beads ({Scene.n_beads})")
-    parser.add_argument("--hydrodynamics", default=Scene.hydrodynamics, help=f"as of simulate ({Scene.hydrodynamics})")
-    parser.add_argument("--amplitude", default=1e-4, help="displacement out of the plane at the start, a (1e-4)")
-    parser.add_argument("--t-end", default=800, help="end of the runs in volume, a/U_s (800)")
     parser.add_argument("--growth", type=Path, required=True, help="CSV file for the amplitudes over time")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write, a row for each ℬ")
+    add_settings_and_output(parser, "CSV file to write, a row for each ℬ")
 
 
 def run(args: argparse.Namespace) -> None:
     """Predict and run at each ℬ, and just below and above the threshold between the first and the last."""
     for path in (args.output, args.growth):
         require_writable(path)
-    values = sorted(positive_number("B", value) for value in args.B)
-    amplitude, t_end = positive_number("amplitude", args.amplitude), positive_number("t_end", args.t_end)
-    scene = Scene(values[0], args.theta0, args.n_beads, hydrodynamics=args.hydrodynamics)
+    values, scene, amplitude, t_end = made_from(args.settings, _asked)
     turn = threshold(scene, values[0], values[-1])
     cases = [(B, "") for B in values]
     cases += [(turn * (1 - NEAR), "below"), (turn, "threshold"), (turn * (1 + NEAR), "above")]
@@ -48,6 +43,15 @@ def run(args: argparse.Namespace) -> None:
     print(table.to_string(index=False))
     write_csv(table, args.output)
     write_csv(pd.concat(growths, ignore_index=True), args.growth)
+
+
+def _asked(
+    B: Sequence[float], n_beads: int, hydrodynamics: str, amplitude: float, t_end: float
+) -> tuple[list[float], Scene, float, float]:
+    """ℬ in order, the scene at the first, the displacement out of the plane at the start (a) and the runs' end."""
+    values = sorted(positive_number("B", value) for value in B)
+    scene = Scene(values[0], math.pi / 4, n_beads, hydrodynamics=hydrodynamics)
+    return values, scene, positive_number("amplitude", amplitude), positive_number("t_end", t_end)
 
 
 def _row(scene: Scene, place: str, growth: Growth) -> dict:

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from sedfiber.commands.steps._training import add_data_arguments
+from sedfiber.commands.steps._data import add_split
 from sedfiber.core.atomic_file import require_writable
 from sedfiber.reduced.dataset import Dataset, read_dataset
 from sedfiber.reduced.dataset_file import write_dataset
@@ -18,7 +18,7 @@ from sedfiber.reduced.torch_forecast import ForecastModel
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """The model, the true trajectories and their steady shapes."""
-    add_data_arguments(parser)
+    add_split(parser, "truth", "the split to forecast")
     parser.add_argument("--model", type=Path, required=True, help="folder of a forecast model")
     parser.add_argument("-o", "--output", type=Path, required=True, help="Parquet file to write")
 
@@ -27,7 +27,7 @@ def run(args: argparse.Namespace) -> None:
     """Forecast at the samples of the true trajectories; same layout as the data set."""
     torch.set_num_threads(1)
     require_writable(args.output)
-    truth = read_dataset(args.dataset, args.terminal_shapes)
+    truth = read_dataset(*args.truth)
     write_dataset(forecast_all(load_forecast_model(args.model), truth), args.output)
 
 

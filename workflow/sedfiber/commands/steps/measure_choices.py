@@ -1,15 +1,18 @@
 """``sedfiber measure_choices``: simulations, forecasts, lookup and POD–Galerkin on the test trajectories."""
 
 import argparse
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import torch
 
 from sedfiber.commands.steps._benchmark_files import seconds_of
+from sedfiber.commands.steps._data import add_split, add_splits, read_splits
+from sedfiber.commands.steps._settings import add_settings_and_output, made_from
+from sedfiber.commands.steps._tolerances import tolerance_ladder
 from sedfiber.core.atomic_file import require_writable
 from sedfiber.core.csv_file import write_csv
-from sedfiber.core.errors import InputError
-from sedfiber.core.validation import number_within, whole_number
+from sedfiber.core.validation import whole_number
 from sedfiber.reduced.dataset import Dataset, read_dataset
 from sedfiber.simulation.equilibria.terminal_curve import TerminalCurve, read_terminal_curve
 from sedfiber.study.costs.choice import Outcomes
@@ -29,40 +32,22 @@ from sedfiber.study.costs.queries import Query, queries
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Data, models with what they took to make, and what to try."""
-    data = {"nargs": 2, "type": Path, "metavar": ("DATASET", "TERMINAL_SHAPES")}
-    parser.add_argument("--training", **data, required=True, help="the training split")
-    parser.add_argument("--test", **data, action="append", required=True, help="a test split; once for each")
+    add_split(parser, "training", "the training split")
+    add_splits(parser, "--tests", "test splits")
     parser.add_argument("--terminal-curve", type=Path, required=True, help="terminal shapes of the whole range")
-    parser.add_argument(
-        "--model",
-        nargs="+",
-        action="append",
-        required=True,
-        metavar=("NAME FOLDER", "BENCHMARK"),
-        help="a forecast model and the benchmark files of its trainings; once for each",
-    )
-    parser.add_argument("--data-benchmarks", nargs="*", type=Path, default=[], help="those of making the training set")
-    parser.add_argument("--simulation-tolerances", nargs="+", required=True, help="relative, and absolute in a")
-    parser.add_argument("--forecast-tolerances", nargs="+", required=True, help="relative, and absolute in L/2")
-    parser.add_argument("--pod-modes", nargs="+", required=True, help="numbers of modes of POD-Galerkin")
-    parser.add_argument("--batches", nargs="+", required=True, help="numbers of forecasts at once")
-    parser.add_argument("--batch-tolerances", nargs="+", required=True, help="relative, and absolute in L/2, of those")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write: one row a choice")
+    add_settings_and_output(parser, "CSV file to write: one row a choice")
     parser.add_argument("--at-each-B", type=Path, required=True, help="CSV file to write: one row a choice and ℬ")
 
 
 def run(args: argparse.Namespace) -> None:
     """Ask everything every query, then write both tables."""
     torch.set_num_threads(1)
-    models = {name: (Path(folder), [Path(file) for file in files]) for name, folder, *files in _models(args.model)}
-    ladders = _ladders(args)
     for path in (args.output, args.at_each_B):
         require_writable(path)
-    data = seconds_of(args.data_benchmarks)
-    preparation = {name: data + seconds_of(files) for name, (_, files) in models.items()}
+    models, preparation, data, ladders = made_from(args.settings, _asked)
     training, curve = read_dataset(*args.training), read_terminal_curve(args.terminal_curve)
-    asked = [query for split in args.test for query in queries(read_dataset(*split), curve.hydrodynamics)]
-    found = _measure(asked, training, {name: folder for name, (folder, _) in models.items()}, curve, ladders)
+    asked = [query for split in read_splits(args.tests) for query in queries(split, curve.hydrodynamics)]
+    found = _measure(asked, training, models, curve, ladders)
     facts = machine_columns()
     write_csv(choices_at_each_B(found, asked, preparation, data).assign(**facts), args.at_each_B)
     write_csv(choices_overall(found, preparation, data).assign(**facts), args.output)
@@ -85,19 +70,32 @@ def _measure(
     return found
 
 
-def _models(given: list[list[str]]) -> list[list[str]]:
-    for words in given:
-        if len(words) < 2:
-            raise InputError(f"model: {' '.join(words)!r} is not allowed; give a name and a folder")
-    return given
+def _asked(
+    models: Sequence[Mapping], data_benchmarks: Sequence[str], tried: Mapping[str, Sequence]
+) -> tuple[dict[str, Path], dict[str, float], float, dict[str, list]]:
+    """Folder of each model, seconds it took with its data, those of the data alone, and what to try."""
+    data, ladders = seconds_of(map(Path, data_benchmarks)), made_from(tried, _ladders, "tried")
+    read = [made_from(model, _model, "models") for model in models]
+    folders = {name: folder for name, folder, _ in read}
+    return folders, {name: data + seconds for name, _, seconds in read}, data, ladders
 
 
-def _ladders(args: argparse.Namespace) -> dict[str, list]:
-    """The validated lists of what to try."""
-    found: dict[str, list] = {}
-    for key in ("simulation_tolerances", "forecast_tolerances", "batch_tolerances"):
-        allowed = "numbers from 1e-12 to 0.1"
-        found[key] = [number_within(key, value, 1e-12, 0.1, allowed) for value in getattr(args, key)]
-    for key in ("pod_modes", "batches"):
-        found[key] = [whole_number(key, value, "whole numbers from 1 up", 1) for value in getattr(args, key)]
+def _model(name: str, folder: str, benchmarks: Sequence[str]) -> tuple[str, Path, float]:
+    return name, Path(folder), seconds_of(map(Path, benchmarks))
+
+
+def _ladders(
+    simulation_tolerances: Sequence[float],  # relative, and absolute in a
+    forecast_tolerances: Sequence[float],  # relative, and absolute in L/2
+    pod_modes: Sequence[int],
+    batches: Sequence[int],
+    batch_tolerances: Sequence[float],  # as those of the forecasts
+) -> dict[str, list]:
+    found: dict[str, list] = {
+        "simulation_tolerances": tolerance_ladder("simulation_tolerances", simulation_tolerances),
+        "forecast_tolerances": tolerance_ladder("forecast_tolerances", forecast_tolerances),
+        "batch_tolerances": tolerance_ladder("batch_tolerances", batch_tolerances),
+    }
+    for key, values in {"pod_modes": pod_modes, "batches": batches}.items():
+        found[key] = [whole_number(key, value, "whole numbers from 1 up", 1) for value in values]
     return found

@@ -24,20 +24,20 @@ _ERRORS_OF = {"rollout": "forecast_errors", "source": "source_errors", "lookup":
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """True splits, forecasts of each by each forecaster, and one file per table."""
     add_forecaster_arguments(parser)
-    for name in OUTPUTS:
-        parser.add_argument(f"--{name.replace('_', '-')}", type=Path, required=True, help="CSV file to write")
+    files = ", ".join(OUTPUTS)
+    parser.add_argument("-o", "--output", nargs=len(OUTPUTS), type=Path, required=True, help=f"CSV files of {files}")
 
 
 def run(args: argparse.Namespace) -> None:
     """Measure every forecaster on every split and write the tables."""
-    for name in OUTPUTS:
-        require_writable(getattr(args, name))
+    for path in args.output:
+        require_writable(path)
     tables: dict[str, list[pd.DataFrame]] = {name: [] for name in OUTPUTS}
     for who, truth, forecast in read_forecasts(args):
         _add(tables, who, truth, forecast)
-    for name, parts in tables.items():
+    for parts, path in zip(tables.values(), args.output, strict=True):
         table = pd.concat(parts, ignore_index=True).astype({"latent_dim": "Int64"})  # the lookup has none
-        write_csv(table, getattr(args, name))
+        write_csv(table, path)
 
 
 def _add(tables: dict[str, list[pd.DataFrame]], who: ModelLabel, truth: Dataset, forecast: Dataset) -> None:

@@ -6,30 +6,23 @@ from pathlib import Path
 
 import pandas as pd
 
+from sedfiber.commands.steps._data import add_splits, read_splits
 from sedfiber.core.atomic_file import require_writable
 from sedfiber.core.csv_file import write_csv
-from sedfiber.reduced.dataset import read_dataset
 from sedfiber.simulation.trajectory import Trajectory
 from sedfiber.study.regimes import measure_motion
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """One ``--split SAMPLES SHAPES`` for each split."""
-    parser.add_argument(
-        "--split",
-        nargs=2,
-        action="append",
-        required=True,
-        metavar=("SAMPLES", "SHAPES"),
-        help="Parquet files of a split's samples and of its steady shapes",
-    )
+    """The splits and the table."""
+    add_splits(parser, "splits", "splits of the data set")
     parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write")
 
 
 def run(args: argparse.Namespace) -> None:
     """Measure every trajectory and write one row each; angles in radians, lengths in L."""
     require_writable(args.output)
-    rows = [_row(trajectory) for pair in args.split for trajectory in read_dataset(*pair)]
+    rows = [_row(trajectory) for split in read_splits(args.splits) for trajectory in split]
     write_csv(pd.DataFrame(rows), args.output)
 
 

@@ -4,31 +4,30 @@ import argparse
 import json
 import platform
 import re
+from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from sedfiber.commands.steps._settings import add_settings_and_output, made_from
 from sedfiber.core.atomic_file import require_writable, write_text
 from sedfiber.core.checksum import sha256
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Everything the manifest records."""
-    parser.add_argument("--config", required=True, help="the whole configuration, JSON")
     parser.add_argument("--lock", type=Path, required=True, help="lock file")
-    parser.add_argument("--commit", required=True, help="commit of the code, as git describes it")
     parser.add_argument(
         "--rule-graph", type=argparse.FileType(), required=True, help="what snakemake --rulegraph dot printed, or -"
     )
     parser.add_argument("--outputs", nargs="+", type=Path, required=True, help="files to checksum")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="JSON file to write")
+    add_settings_and_output(parser, "JSON file to write")
 
 
 def run(args: argparse.Namespace) -> None:
     """Checksum the outputs and write one JSON file."""
     require_writable(args.output)
     manifest = {
-        "commit": args.commit,
-        "config": json.loads(args.config),
+        **made_from(args.settings, _facts),
         "lock_file": {"name": args.lock.name, "sha256": sha256(args.lock)},
         "machine": {"platform": platform.platform(), "processor": _processor()},
         "packages": _versions(args.lock),
@@ -37,6 +36,11 @@ def run(args: argparse.Namespace) -> None:
         "sha256": {str(path): sha256(path) for path in sorted(args.outputs)},
     }
     write_text(args.output, json.dumps(manifest, indent=2, sort_keys=True, ensure_ascii=False) + "\n")
+
+
+def _facts(commit: str, config: Mapping) -> dict:
+    """The commit of the code, as git describes it, and the whole configuration."""
+    return {"commit": commit, "config": config}
 
 
 def _edges(dot: str) -> list[str]:

@@ -33,7 +33,7 @@ def measure_models(
 ) -> pd.DataFrame:
     """One row a model and test set: parameters, training seconds, reconstruction and forecast errors, seconds.
 
-    ``reconstruction`` is the table of `learning.reconstruction_table`; a model whose forecasts fail
+    ``reconstruction`` is the table of `study.reconstruction_table`; a model whose forecasts fail
     has infinite errors.
     """
     facts = machine_columns()
