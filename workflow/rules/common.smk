@@ -11,11 +11,21 @@ from snakemake.iocontainers import Wildcards
 BASE = Path(workflow.basedir)
 sys.path.insert(0, str(BASE / "workflow"))
 
+from sedfiber.core.errors import InputError
 from sedfiber.study.hard_cases.listing import NAMES as HARD_CASES, case_of
 from sedfiber.study.code_fingerprint import code_fingerprint
 from sedfiber.study.configuration import SCENE_NAME, Study, scene_names
 
-STUDY = Study.from_config(config, BASE / "workflow/schemas/config.schema.yaml")
+
+def read_or_exit(read, *words):
+    """What a file of the user's says; an error in it ends Snakemake with one line, before any job."""
+    try:
+        return read(*words)
+    except InputError as error:
+        sys.exit(str(error))
+
+
+STUDY = read_or_exit(Study.from_config, config, BASE / "workflow/schemas/config.schema.yaml")
 
 
 wildcard_constraints:
@@ -185,7 +195,7 @@ def short_model(variant, dim, seed):
 # Jobs that measure time take all cores, so that nothing runs beside them. Snakemake cuts it down to
 # what there is; workflow.cores would do, but is unknown where only the graph is asked for.
 EVERY_CORE = 1024
-SCENES = scene_names(BASE / "scenes")
+SCENES = read_or_exit(scene_names, BASE / "scenes")
 TEST_SETS = ("A", "B")
 NODES = config["node"]["models"]
 FORECAST_MODEL = config["node"]["forecast_model"]

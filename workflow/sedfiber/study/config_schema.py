@@ -1,18 +1,18 @@
 """Validation of ``config.yaml`` against its schema, one line per fault."""
 
 import math
-import sys
 from pathlib import Path
 from typing import Any
 
 import yaml
 from jsonschema import Draft202012Validator, ValidationError
 
+from sedfiber.core.errors import InputError
 from sedfiber.core.validation import EXPONENT
 
 
 def validate(config: dict[str, Any], schema: Path) -> None:
-    """Exit with one line naming key, value and what is allowed, before any job starts.
+    """Raise InputError that names key, value and what is allowed.
 
     Numbers that YAML 1.1 takes for text, such as 1e-3, are made numbers in ``config`` first.
     """
@@ -21,7 +21,7 @@ def validate(config: dict[str, Any], schema: Path) -> None:
     rules = yaml.safe_load(schema.read_text(encoding="utf-8"))
     faults = sorted(Draft202012Validator(rules).iter_errors(config), key=lambda fault: list(map(str, fault.path)))
     if faults:
-        sys.exit(f"config: {describe(faults[0])}")
+        raise InputError(f"config: {describe(faults[0])}")
 
 
 def describe(fault: ValidationError) -> str:
@@ -54,4 +54,4 @@ def _require_finite(key: str, value: Any) -> None:
         for name, child in children:
             _require_finite(f"{key}.{name}".lstrip("."), child)
     elif isinstance(value, float) and not math.isfinite(value):
-        sys.exit(f"config: {key}: {value!r} is not allowed; give a finite number")
+        raise InputError(f"config: {key}: {value!r} is not allowed; give a finite number")

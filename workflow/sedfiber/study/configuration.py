@@ -1,7 +1,6 @@
 """The study's configuration, validated, and the settings of each step."""
 
 import re
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,7 +23,7 @@ class Study:
 
     @classmethod
     def from_config(cls, config: dict, schema: Path) -> "Study":
-        """Validate against the schema; ends the program with one line when a key is wrong."""
+        """Validate against the schema; raises InputError for the first key that is wrong."""
         validate(config, schema)
         study = cls(config)
         study._require_apart()
@@ -47,7 +46,7 @@ class Study:
         for split in SPLITS:
             for B, k in self.runs(split):
                 if (B, k) in seen:
-                    sys.exit(
+                    raise InputError(
                         f"config: study.{split}: B={B} with angle_index {k} is not allowed; "
                         f"it is in {seen[B, k]} already, give each pair to one split"
                     )
@@ -59,22 +58,26 @@ class Study:
         for d in self.config["cost"]["models"]["latent_dims"]:
             if d not in trained:
                 allowed = ", ".join(map(str, trained))
-                sys.exit(f"config: cost.models.latent_dims: {d} is not allowed; give some of {allowed}")
+                raise InputError(f"config: cost.models.latent_dims: {d} is not allowed; give some of {allowed}")
         if node["forecast_model"] not in node["models"]:
             names = ", ".join(node["models"])
-            sys.exit(f"config: node.forecast_model: {node['forecast_model']!r} is not allowed; give one of {names}")
+            raise InputError(
+                f"config: node.forecast_model: {node['forecast_model']!r} is not allowed; give one of {names}"
+            )
         for place, settings in {"node.rollout": node["rollout"], "cost.models.node": self.short_node}.items():
             try:
                 NodeSettings(**settings)
             except InputError as error:
-                sys.exit(f"config: {place}.{error}")
+                raise InputError(f"config: {place}.{error}") from None
 
     def _require_shown_fall(self) -> None:
         """The figures of the study show falls that it trains on, as the source's do."""
         for key, value in self.config["figures"].items():
             trained = self.config["study"]["train"][key]
             if value not in trained:
-                sys.exit(f"config: figures.{key}: {value} is not allowed; give one of {', '.join(map(str, trained))}")
+                raise InputError(
+                    f"config: figures.{key}: {value} is not allowed; give one of {', '.join(map(str, trained))}"
+                )
 
     @property
     def shown_fall(self) -> tuple[str, int]:
@@ -161,11 +164,11 @@ class Study:
 
 
 def scene_names(folder: Path) -> list[str]:
-    """Names of the scenes in a folder; ends the program with one line where a file's name would make no rule's."""
+    """Names of the scenes in a folder; raises InputError for a file whose name no rule could hold."""
     paths = sorted(path for path in folder.glob("*") if path.suffix in (".yaml", ".yml"))
     for path in paths:
         if path.suffix == ".yml" or not re.fullmatch(SCENE_NAME, path.stem):
-            sys.exit(
+            raise InputError(
                 f"scenes: {path.name!r} is not allowed; give it a name of letters, digits, _ and - "
                 "(not the first) that ends in .yaml"
             )
