@@ -1,10 +1,13 @@
 """The rooms of the package: imports go one way and in no circle; files and functions stay short."""
 
 import ast
+import re
 from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
+
+from sedfiber.scene.parts import PARTS
 
 PACKAGE = Path(__file__).parents[2] / "workflow" / "sedfiber"
 ROOMS = ["core", "physics", "scene", "simulation", "reduced", "study", "figures", "commands"]
@@ -61,3 +64,12 @@ def test_a_function_longer_than_60_lines_is_a_kernel_that_says_why():
             if isinstance(node, ast.FunctionDef) and node.end_lineno - node.lineno >= 60:
                 text = ast.get_source_segment(FILES[name].read_text(encoding="utf-8"), node)
                 assert "# One kernel: " in text, f"{name}.{node.name} is too long"
+
+
+def test_a_part_names_files_that_exist():
+    """``sedfiber effects`` shows users in which files a part acts, with braces around several of a folder."""
+    for part in PARTS:
+        named = re.sub(
+            r"(\w+)/\{(.*?)\}\.py", lambda m: ", ".join(f"{m[1]}/{one}.py" for one in m[2].split(", ")), part.acts_in
+        )
+        assert all((PACKAGE / path).is_file() for path in named.split(", ")), f"{part.key}: {named}"
