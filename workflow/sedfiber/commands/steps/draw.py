@@ -48,14 +48,16 @@ def _drawing(figure: str) -> Callable[..., Figure]:
 
 
 def _given(draw: Callable[..., Figure], text: str) -> dict[str, Any]:
-    """What the function takes by name: the inputs, then the options as they are."""
+    """The inputs by name, as paths where the function takes a path, then the options as they are."""
     try:
         settings = json.loads(text)
         inputs, options = settings["inputs"], settings["options"]
-        inspect.signature(draw).bind(**inputs, **options)
+        signature = inspect.signature(draw)
+        signature.bind(**inputs, **options)
     except (ValueError, KeyError, TypeError) as error:
         raise InputError(f"settings: {error}") from None
-    return {name: _input(files) for name, files in inputs.items()} | options
+    paths = [name for name, one in signature.parameters.items() if one.annotation is Path]
+    return {name: Path(files) if name in paths else _input(files) for name, files in inputs.items()} | options
 
 
 def _input(files: str | list[str]) -> Any:
