@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from sedfiber.reduced.dataset import SettlingFall
+from sedfiber.reduced.dataset import Dataset, SettlingFall
 from sedfiber.simulation.trajectory import fall_keys
 
 N_BEADS = 5
@@ -33,3 +33,8 @@ def settling(B, angle_index, split="train", duration=12.0):
     positions = shapes + centre[:, None]
     keys = fall_keys(split, B, angle_index, theta0)
     return SettlingFall(t, positions, keys, terminal=terminal, terminal_velocity=velocity)
+
+
+def training_set():
+    """Three ℬ, four even angles."""
+    return Dataset(tuple(settling(B, k) for B in TRAINED for k in (0, 6, 12, 18)))

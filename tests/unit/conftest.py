@@ -2,11 +2,10 @@
 
 import pytest
 
-from sedfiber.reduced.dataset import Dataset
-from tiny_fiber import TRAINED, settling
+from tiny_fiber import training_set
 
 
 @pytest.fixture
 def training():
-    """Three ℬ, four even angles."""
-    return Dataset(tuple(settling(B, k) for B in TRAINED for k in (0, 6, 12, 18)))
+    """Three ℬ, four even angles; a test may spoil its own."""
+    return training_set()

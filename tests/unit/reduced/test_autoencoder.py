@@ -8,16 +8,17 @@ from sedfiber.reduced.pod import pod_basis
 from sedfiber.reduced.reconstruction import autoencoder_errors, mean_over_samples, pod_errors
 from sedfiber.reduced.training.settings import VARIANTS, AutoencoderSettings
 from sedfiber.reduced.training.train_autoencoder import path_even_residuals, train_autoencoder
-from tiny_fiber import N_BEADS
+from tiny_fiber import N_BEADS, training_set
 
 QUICK = AutoencoderSettings(
     decoder_hidden=(12,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=60
 )
 
 
-@pytest.fixture(params=VARIANTS)
-def model(request, training):
-    return train_autoencoder(training, request.param, 3, 0, QUICK).double().requires_grad_(False)
+@pytest.fixture(params=VARIANTS, scope="module")
+def model(request):
+    """One of each variant, its weights frozen."""
+    return train_autoencoder(training_set(), request.param, 3, 0, QUICK).double().requires_grad_(False)
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from sedfiber.reduced.torch_forecast import ForecastModel
 from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
 from sedfiber.reduced.training.train_autoencoder import train_autoencoder
 from sedfiber.reduced.training.train_node import train_node
-from tiny_fiber import settling
+from tiny_fiber import settling, training_set
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(8,), encoder_hidden=4, modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=10
@@ -31,14 +31,15 @@ NODE = NodeSettings(
 )
 
 
-@pytest.fixture(params=["decoder", "double"])
-def autoencoder(request, training):
-    return train_autoencoder(training, request.param, 2, 0, AUTOENCODER)
+@pytest.fixture(params=["decoder", "double"], scope="module")
+def autoencoder(request):
+    """Saved and read by every test, changed by none."""
+    return train_autoencoder(training_set(), request.param, 2, 0, AUTOENCODER)
 
 
-@pytest.fixture
-def model(training, autoencoder):
-    return ForecastModel(autoencoder, train_node(training, autoencoder, 0, NODE), 1e-6, 1e-8)
+@pytest.fixture(scope="module")
+def model(autoencoder):
+    return ForecastModel(autoencoder, train_node(training_set(), autoencoder, 0, NODE), 1e-6, 1e-8)
 
 
 def test_autoencoder_comes_back(autoencoder, tmp_path):

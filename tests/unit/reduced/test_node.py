@@ -1,3 +1,5 @@
+import copy
+
 import numpy as np
 import pytest
 import torch
@@ -15,7 +17,7 @@ from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
 from sedfiber.reduced.training.train_autoencoder import train_autoencoder
 from sedfiber.reduced.training.train_node import train_node
 from sedfiber.reduced.training.train_node_source import train_node_source
-from tiny_fiber import settling
+from tiny_fiber import settling, training_set
 
 AUTOENCODER = AutoencoderSettings(
     decoder_hidden=(16,), modes_per_parity=4, samples_per_trajectory=12, batch_size=64, iterations=400
@@ -31,9 +33,16 @@ QUICK = NodeSettings(
 )
 
 
+@pytest.fixture(scope="module")
+def trained():
+    """An autoencoder, trained once."""
+    return train_autoencoder(training_set(), "decoder", 2, 0, AUTOENCODER)
+
+
 @pytest.fixture
-def autoencoder(training):
-    return train_autoencoder(training, "decoder", 2, 0, AUTOENCODER)
+def autoencoder(trained):
+    """A copy for each test: some change its precision."""
+    return copy.deepcopy(trained)
 
 
 @pytest.fixture
@@ -83,6 +92,7 @@ def test_segments_follow_the_stored_samples(training, autoencoder):
     assert (~drawn.stored).any() and (samples.t[drawn.start][~drawn.stored.all(0)] == 0).all()
 
 
+@pytest.mark.slow
 def test_training_forecasts_an_angle_it_has_not_seen(training, autoencoder):
     settings = NodeSettings(
         hidden=(24, 24),
@@ -100,6 +110,7 @@ def test_training_forecasts_an_angle_it_has_not_seen(training, autoencoder):
     assert forecast_error(unseen.positions, forecast).total.max() < 2e-3
 
 
+@pytest.mark.slow
 def test_source_recipe_lowers_its_loss(training, autoencoder):
     losses = []
     settings = SourceNodeSettings(hidden=(16,), iterations=150, batch_size=32)
@@ -132,9 +143,11 @@ def test_training_leaves_the_autoencoder_alone(training, autoencoder):
     assert all((before[name] == value).all() for name, value in autoencoder.state_dict().items())
 
 
-@pytest.fixture
-def model(training, autoencoder):
-    return ForecastModel(autoencoder, train_node(training, autoencoder, 0, QUICK), 1e-8, 1e-10)
+@pytest.fixture(scope="module")
+def model(trained):
+    """Forecasts without a change to it, so that all tests share one."""
+    autoencoder = copy.deepcopy(trained)
+    return ForecastModel(autoencoder, train_node(training_set(), autoencoder, 0, QUICK), 1e-8, 1e-10)
 
 
 def test_forecast_does_not_depend_on_companions_or_on_the_output_times(model):

@@ -1,5 +1,6 @@
 """What a training refuses to learn from or to save, always with the trajectory's name."""
 
+import copy
 from dataclasses import replace
 
 import numpy as np
@@ -15,7 +16,7 @@ from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings
 from sedfiber.reduced.training.train_autoencoder import train_autoencoder
 from sedfiber.reduced.training.train_node import train_node
 from sedfiber.reduced.training.train_node_source import train_node_source
-from tiny_fiber import settling
+from tiny_fiber import settling, training_set
 
 ENCODING = AutoencoderSettings((8,), modes_per_parity=4, samples_per_trajectory=8, batch_size=16, iterations=20)
 NODE = NodeSettings((8,), samples_per_trajectory=8, matching_iterations=20, matching_batch_size=16)
@@ -23,9 +24,16 @@ NODE = replace(NODE, rollout_lengths=(4,), rollout_iterations=(30,), rollout_bat
 SOURCE = SourceNodeSettings((8,), iterations=20, batch_size=16)
 
 
+@pytest.fixture(scope="module")
+def trained():
+    """An autoencoder, trained once."""
+    return train_autoencoder(training_set(), "decoder", 2, 0, ENCODING)
+
+
 @pytest.fixture
-def autoencoder(training):
-    return train_autoencoder(training, "decoder", 2, 0, ENCODING)
+def autoencoder(trained):
+    """A copy for each test: one spoils its weights."""
+    return copy.deepcopy(trained)
 
 
 def with_nan(one):
@@ -72,7 +80,11 @@ def test_no_trajectories_at_all_are_refused():
     [
         (train_node, replace(NODE, rollout_learning_rate=1e6)),
         (train_node, replace(NODE, matching_learning_rate=1e9)),
-        (train_node_source, replace(SOURCE, iterations=200, learning_rate=1e9, final_learning_rate=1e9)),
+        pytest.param(
+            train_node_source,
+            replace(SOURCE, iterations=200, learning_rate=1e9, final_learning_rate=1e9),
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_a_training_that_blows_up_stops_with_a_trajectory(training, autoencoder, train, wild):

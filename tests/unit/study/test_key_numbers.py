@@ -85,6 +85,13 @@ def test_bars_are_asked_of_this_studys_recipe_alone():
     assert found.loc[["ensemble_theirs_A", "ensemble_lookup_A", "worst_ours_d2_A"], "met"].eq("").all()
 
 
+def test_the_papers_claim_stands_beside_its_dimension_alone():
+    """It forecast with d = 4: fewer dimensions and the lookup are not its own."""
+    claims = numbers()["source"]
+    assert set(claims[["ensemble_ours_d4_A", "ensemble_theirs_B"]]) == {"below 0.1"}
+    assert set(claims[["ensemble_ours_d2_A", "ensemble_lookup_B"]]) == {"not stated"}
+
+
 def test_an_unknown_model_is_named():
     """With those that there are."""
     with pytest.raises(InputError, match="'best' is not allowed; give one of ours_d2, ours_d4"):
