@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from explorer_page import make
-from workflow_helpers import REPOSITORY, clean_environment
+from workflow_helpers import REPOSITORY, clean_environment, dry_run
 
 from sedfiber.reduced.dataset_file import write_dataset
 
@@ -28,9 +28,7 @@ class Checkout:
 
     def planned(self, *words: str) -> dict[str, int]:
         """Number of jobs of each rule that a run would start; target rules are left out."""
-        run = self.snakemake(*words, "--dry-run", "--quiet", "rules")
-        assert run.returncode == 0, run.stdout + run.stderr
-        text = run.stdout + run.stderr
+        text = dry_run(self.folder, [*words, "--dry-run", "--quiet", "rules"])
         jobs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)}
         targets = {"all", "total", "simulations", "dataset", "autoencoders", "node", "forecasts", "errors", "figures"}
         targets |= {"scenes", "effects", "third_dimension", "states", "hard_cases", "cost", "films", "explorer"}

@@ -7,6 +7,7 @@ comments and new line breaks change nothing, a changed constant or expression do
 import ast
 import hashlib
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -22,7 +23,7 @@ def code_fingerprint(command: str, modules: Iterable[str] = (), files: Iterable[
     sources = {path for one in (command_module(command), *modules) for path in module_sources(one)}
     digest = hashlib.sha256()
     for path in sorted(sources):
-        digest.update(f"{path.relative_to(PACKAGE)}\0{_meaning(path)}\0".encode())
+        digest.update(f"{path.relative_to(PACKAGE)}\0{_parsed(path).meaning}\0".encode())
     for path in files:
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
@@ -43,44 +44,58 @@ def module_sources(module: str) -> list[Path]:
     return _closure(PACKAGE.joinpath(*module.split(".")).with_suffix(".py"))
 
 
+@dataclass(frozen=True)
+class _Module:
+    """What counts of one file: the checksum of its syntax tree without docstrings, and the package files it imports."""
+
+    meaning: str
+    imported: tuple[Path, ...]
+
+
 @cache
-def _meaning(path: Path) -> str:
+def _parsed(path: Path) -> _Module:
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        if isinstance(body := getattr(node, "body", None), list):
-            node.body = [one for one in body if not _is_docstring(one)]
-    return ast.dump(tree)
+    statements = [tree, *_statements(tree)]
+    imported = tuple(target for one in statements for target in _import_targets(one))
+    for one in statements:
+        if isinstance(body := getattr(one, "body", None), list):
+            one.body = [inner for inner in body if not _is_docstring(inner)]
+    return _Module(hashlib.sha256(ast.dump(tree).encode()).hexdigest(), imported)
+
+
+def _statements(node: ast.AST) -> Iterator[ast.AST]:
+    """All statements below a node; expressions hold no imports and no docstrings, and are most of a tree."""
+    for field in ("body", "orelse", "finalbody", "handlers", "cases"):
+        for inner in getattr(node, field, ()):
+            yield inner
+            if not isinstance(inner, ast.Expr):
+                yield from _statements(inner)
 
 
 def _is_docstring(node: ast.AST) -> bool:
     return isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(node.value.value, str)
 
 
+@cache
 def _closure(first: Path) -> list[Path]:
     todo, seen = [first], set()
     while todo:
         path = todo.pop()
         if path not in seen:
             seen.add(path)
-            todo.extend(_imported(path))
+            todo.extend(_parsed(path).imported)
     return sorted(seen)
 
 
-@cache
-def _imported(path: Path) -> tuple[Path, ...]:
-    return tuple(_import_targets(path))
-
-
-def _import_targets(path: Path) -> Iterator[Path]:
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "sedfiber":
-            yield from _module_files(node.module)
-            for alias in node.names:  # `from sedfiber.physics import pair_mobility`
-                yield from _module_files(f"{node.module}.{alias.name}")
-        elif isinstance(node, ast.Import):
-            for alias in node.names:
-                if alias.name.split(".")[0] == "sedfiber":
-                    yield from _module_files(alias.name)
+def _import_targets(node: ast.AST) -> Iterator[Path]:
+    if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "sedfiber":
+        yield from _module_files(node.module)
+        for alias in node.names:  # `from sedfiber.physics import pair_mobility`
+            yield from _module_files(f"{node.module}.{alias.name}")
+    elif isinstance(node, ast.Import):
+        for alias in node.names:
+            if alias.name.split(".")[0] == "sedfiber":
+                yield from _module_files(alias.name)
 
 
 def _module_files(module: str) -> Iterator[Path]:
