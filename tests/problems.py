@@ -38,14 +38,24 @@ def bent_chain(seed, n_beads=11, dim=3, bend=0.25, stretch=0.03):
 def crumpled_chain(seed, n_beads=11, dim=3, closest=1.2):
     """A chain folded onto itself: some beads overlap, none nearer than ``closest``."""
     rng = np.random.default_rng(seed)
+    x = None
+    while x is None:
+        x = _crumpled(rng, n_beads, dim, closest)
+    return x - x[n_beads // 2]
+
+
+def _crumpled(rng, n_beads, dim, closest):
+    """One attempt, bead by bead; None where the end has wound itself in and finds no way on."""
     x = np.zeros((n_beads, dim))
     for m in range(1, n_beads):
-        while True:  # redraw the bond until it keeps clear
+        for _ in range(1000):  # redraw the bond until it keeps clear
             bond = rng.normal(size=dim)
             x[m] = x[m - 1] + 1.9 * bond / np.linalg.norm(bond)
             if np.linalg.norm(x[:m] - x[m], axis=1).min() > closest:
                 break
-    return x - x[n_beads // 2]
+        else:
+            return None
+    return x
 
 
 def random_rotation(seed, dim):
