@@ -3,6 +3,8 @@
 import argparse
 from pathlib import Path
 
+import pandas as pd
+
 from sedfiber.core.csv_file import read_csv
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import positive_number, whole_number
@@ -34,7 +36,7 @@ def run(args: argparse.Namespace) -> None:
     print("\n".join(advice(question, choices, discretisation, scale)))
 
 
-def _measured(path: Path):
+def _measured(path: Path) -> pd.DataFrame:
     if not path.exists():
         raise InputError(f"tables: {str(path)!r} does not exist; run `snakemake -j1 cost` first, or give its folder")
     return read_csv(path)

@@ -1,6 +1,7 @@
 """``sedfiber simulate``: integrate a scene, of a file or of options, and write its trajectory."""
 
 import argparse
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -81,7 +82,7 @@ def _requested(args: argparse.Namespace, index: int | None) -> tuple[Scene, Nume
     return Scene(**what), Numerics(**how)
 
 
-def _given(args: argparse.Namespace, keys: tuple[str, ...]) -> dict:
+def _given(args: argparse.Namespace, keys: Iterable[str]) -> dict:
     """The options that were given; the scene's or the defaults stand for the rest."""
     values = {key: getattr(args, key) for key in keys}
     return {key: value for key, value in values.items() if value is not None}

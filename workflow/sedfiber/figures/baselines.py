@@ -1,5 +1,7 @@
 """Worst and median forecast error of every forecaster at each ℬ, as a dot plot."""
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -51,7 +53,7 @@ def _draw_set(axes: Axes, rows: pd.DataFrame, shown: list[LegendEntry]) -> None:
 
 
 def _draw_model(axes: Axes, rows: pd.DataFrame, places: pd.Series, entry: LegendEntry) -> None:
-    look = {"color": entry.color, "marker": entry.marker, "linestyle": "none", "markersize": 4.0}
+    look: dict[str, Any] = {"color": entry.color, "marker": entry.marker, "linestyle": "none", "markersize": 4.0}
     axes.hlines(places, rows["E_median"], rows["E_worst"], color=entry.color, linewidth=0.8)
     axes.plot(rows["E_worst"], places, label=entry.label, **look)
     axes.plot(rows["E_median"], places, markerfacecolor="white", **look)

@@ -5,8 +5,7 @@ Symbols are those of the source: X̂ bead positions, X̄ the shape, X̌ the resi
 latent variables, c the centre bead.
 """
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -35,7 +34,7 @@ class Look(NamedTuple):
     tint: float
 
     @property
-    def style(self) -> dict[str, object]:
+    def style(self) -> dict[str, Any]:
         """As a patch takes it."""
         return {"edgecolor": self.color, "facecolor": to_rgba(self.color, self.tint), "linewidth": self.width}
 
@@ -45,7 +44,7 @@ class Wire(NamedTuple):
 
     color: str
     width: float
-    dashes: str | tuple = "-"
+    dashes: Any = "-"  # as matplotlib takes it
     opacity: float = 1.0
 
 
@@ -61,7 +60,7 @@ class Sheet:
     """Axes without ticks, ``width`` by ``height`` inches, or a part of it whose origin is elsewhere."""
 
     def __init__(self, axes: Axes, width: float, height: float, origin: Point = (0.0, 0.0)) -> None:
-        self.axes, self.width, self.height, self.origin = axes, width, height, np.array(origin)
+        self.axes, self.width, self.height, self.origin = axes, width, height, origin
 
     @classmethod
     def on(cls, axes: Axes, width: float, height: float) -> "Sheet":
@@ -76,8 +75,10 @@ class Sheet:
 
     def box(self, place: Point, size: Point, text: str, look: Look) -> None:
         """A rectangle around its middle ``place``."""
-        low = self._at(place) - 0.5 * np.array(size)
-        self.axes.add_patch(FancyBboxPatch(low, *size, boxstyle="round,pad=0,rounding_size=0.03", **look.style))
+        (x, y), (width, height) = self._at(place), size
+        corner = (x - 0.5 * width, y - 0.5 * height)
+        rounded = "round,pad=0,rounding_size=0.03"
+        self.axes.add_patch(FancyBboxPatch(corner, width, height, boxstyle=rounded, **look.style))
         self.words(place, text)
 
     def trapezoid(self, place: Point, width: float, heights: Point, text: str, look: Look) -> None:
@@ -105,8 +106,8 @@ class Sheet:
     def wire(self, *corners: Point, wire: Wire = STATE, head: bool = True, label: str = "") -> None:
         """A line through ``corners``, with an arrowhead at its end; ``label`` is what its patch is known by."""
         path = Path([self._at(corner) for corner in corners])
-        look = {"color": to_rgba(wire.color, wire.opacity), "linewidth": wire.width, "linestyle": wire.dashes}
-        look |= {"arrowstyle": _HEAD if head else "-", "joinstyle": "miter", "zorder": 1.5, "label": label}
+        look: dict[str, Any] = {"color": to_rgba(wire.color, wire.opacity), "linestyle": wire.dashes, "label": label}
+        look |= {"arrowstyle": _HEAD if head else "-", "linewidth": wire.width, "joinstyle": "miter", "zorder": 1.5}
         self.axes.add_patch(FancyArrowPatch(path=path, mutation_scale=1.0, **look))
 
     def frame(self, title: str, words: str) -> None:
@@ -124,20 +125,21 @@ class Sheet:
         """How many numbers a wire carries."""
         self.text(place, str(number), fontsize=_SMALL, color=GREY)
 
-    def text(self, place: Point, text: str, **look: object) -> None:
+    def text(self, place: Point, text: str, **look: Any) -> None:
         """Words around ``place``, unless ``ha`` or ``va`` says otherwise."""
-        self.axes.text(*self._at(place), text, **{"ha": "center", "va": "center", "zorder": 4, "fontsize": 7.5} | look)
+        usual: dict[str, Any] = {"ha": "center", "va": "center", "zorder": 4, "fontsize": 7.5}
+        self.axes.text(*self._at(place), text, **usual | look)
 
     def fiber(self, origin: Point, beads: Array, color: str, centre: Point = (0.0, 0.0)) -> None:
         """A small fiber: beads (N, 2) in inches about the centre bead, a dot, which is at ``centre`` from a cross."""
-        line = self._at(origin) + beads + np.array(centre)
-        cross = {"color": GREY, "marker": "+", "markersize": 7.0, "markeredgewidth": 0.5}
+        line = np.array(self._at(origin)) + beads + np.array(centre)
+        cross: dict[str, Any] = {"color": GREY, "marker": "+", "markersize": 7.0, "markeredgewidth": 0.5}
         self.axes.plot(*self._at(origin), **cross, zorder=1.2)
         self.axes.plot(*line.T, color=color, linewidth=1.8, solid_capstyle="round", zorder=2)
         self.axes.plot(*line[len(line) // 2], color=BLACK, marker="o", markersize=2.4, zorder=2.1)
 
-    def _at(self, place: Iterable[float]) -> Array:
-        return self.origin + np.asarray(place, dtype=float)
+    def _at(self, place: Point) -> Point:
+        return self.origin[0] + place[0], self.origin[1] + place[1]
 
 
 def place_keys(axes: Axes) -> None:

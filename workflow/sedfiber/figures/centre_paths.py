@@ -1,6 +1,7 @@
 """Paths of the centre bead at one ℬ, from every angle: to scale, and how far each drifts."""
 
 from pathlib import Path
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -12,7 +13,7 @@ from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.simulation.trajectory import Trajectory
 
 MARKS = {"start": "v", "end": "x"}
-_ABOVE = {"textcoords": "offset points", "horizontalalignment": "right", "fontsize": 7.0}
+_ABOVE: dict[str, Any] = {"textcoords": "offset points", "horizontalalignment": "right", "fontsize": 7.0}
 
 
 def draw(dataset: Path, B: float) -> Figure:

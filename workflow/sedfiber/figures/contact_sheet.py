@@ -59,7 +59,7 @@ def _height(n_columns: int) -> float:
 def _draw_cell(axes: Axes, pair: Pair, place: Array, color: tuple) -> None:
     """Lengths in units of L, so that cells are alike for every fiber."""
     width, height = _FILLED * _CELL
-    axes.add_patch(Rectangle(place, width, -height, facecolor=color, alpha=_TINT, linewidth=0.0))
+    axes.add_patch(Rectangle(tuple(place), width, -height, facecolor=color, alpha=_TINT, linewidth=0.0))
     samples = snapshots(pair.truth.t, plane_shapes(pair.truth), SNAPSHOTS)
     places = place + _FIRST + np.arange(SNAPSHOTS)[:, None, None] * _STEP
     for fall, shade, width in ((pair.truth, BLACK, TRUE_LINE), (pair.forecast, VERMILION, FORECAST_LINE)):

@@ -1,6 +1,7 @@
 """What has to be paid before the first answer, and after how many queries it is earned back."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -23,7 +24,7 @@ def draw_preparation(axes: Axes, shown: Choices) -> None:
         if row.preparation_seconds > 0.0:
             axes.plot(row.preparation_seconds, place, "o", color=color)
         else:
-            where = {"transform": axes.get_yaxis_transform(), "va": "center"}
+            where: dict[str, Any] = {"transform": axes.get_yaxis_transform(), "va": "center"}
             axes.text(0.03, place, "nothing", color=GREY, size=_SMALL, **where)
     names = [row.name if row.family == FORECAST else row.family for row in ways.itertuples()]
     axes.set(xscale="log", xlabel="seconds of data and training", ylim=(len(ways) - 0.5, -0.5))
@@ -44,7 +45,7 @@ def write_break_even(axes: Axes, shown: Choices) -> None:
         _write(axes, line, (row.name, _cell(own[own["batch"] == 1]), many), color_of(shown, row.family, row.simple))
 
 
-def _ways(shown: Choices) -> Iterator[tuple]:
+def _ways(shown: Choices) -> Iterator[Any]:
     """What is compared with a simulation: forecasts first, then what learns nothing."""
     rows = shown.rows[(shown.rows["family"] != SIMULATION) & shown.rows["times_faster"].notna()]
     rows = rows.assign(last=rows["family"] != FORECAST).sort_values(["last", "dimension"], kind="stable")
@@ -63,6 +64,6 @@ def _cell(rows: pd.DataFrame) -> str:
 
 def _write(axes: Axes, line: int, words: tuple[str, str, str], color: str) -> None:
     y = 1.0 - (line + 0.5) / (_ROWS + 1.0)
-    looks = ({"color": color, "ha": "left"}, {"ha": "right"}, {"ha": "right"})
+    looks: tuple[dict[str, Any], ...] = ({"color": color, "ha": "left"}, {"ha": "right"}, {"ha": "right"})
     for x, text, look in zip(_COLUMNS, words, looks, strict=True):
         axes.text(x, y, text, size=_SMALL, transform=axes.transAxes, va="center", **look)

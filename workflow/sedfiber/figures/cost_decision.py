@@ -1,5 +1,7 @@
 """The decision chart: error and seconds of every way to an answer, and what has to be paid before."""
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -49,7 +51,7 @@ def _draw_chart(axes: Axes, shown: Choices) -> None:
     _draw_ladder(axes, shown.family(SIMULATION).sort_values("tolerance"))
     lookup, galerkin = shown.family(LOOKUP), shown.family(GALERKIN)
     for family, own, size in ((LOOKUP, lookup, 6.0), (GALERKIN, galerkin, 8.0)):
-        look = {"marker": _OTHERS[family][0], "color": color_of(shown, family, ""), "markersize": size}
+        look: dict[str, Any] = {"marker": _OTHERS[family][0], "color": color_of(shown, family, ""), "markersize": size}
         _draw_bars(axes, own, look["color"])
         axes.plot(own["worst"], own["seconds_least"], linestyle="none", **look)
     for row in galerkin.itertuples():
@@ -82,11 +84,11 @@ def _draw_bars(axes: Axes, rows: pd.DataFrame, color: str) -> None:
     axes.hlines(rows["seconds_least"], rows["median"], rows["worst"], color=color, linewidth=0.7, alpha=0.6)
 
 
-def _write(axes: Axes, row: tuple, words: str, color: str, within: bool = False) -> None:
+def _write(axes: Axes, row: Any, words: str, color: str, within: bool = False) -> None:
     """A word right above a marker, or a number within it."""
-    place = {"xytext": (1.5, 4.0), "size": _SMALL}
+    place: dict[str, Any] = {"xytext": (1.5, 4.0), "size": _SMALL}
     if within:
-        place = {"xytext": (0.0, -0.2), "size": 5.0, "ha": "center", "va": "center_baseline"}
+        place |= {"xytext": (0.0, -0.2), "size": 5.0, "ha": "center", "va": "center_baseline"}
     axes.annotate(words, (row.worst, row.seconds_least), textcoords="offset points", color=color, **place)
 
 

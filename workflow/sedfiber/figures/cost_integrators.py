@@ -1,8 +1,8 @@
 """Work against precision: what every integrator takes for a fall, and how far it is off."""
 
-from collections.abc import Sequence
 from itertools import product
 from string import ascii_lowercase
+from typing import Any
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator
 
+from sedfiber.core.array_types import Array
 from sedfiber.core.validation import one_of
 from sedfiber.figures.cost_omissions import left_out
 from sedfiber.figures.footer import place_legend_above_footer, write_footer
@@ -36,7 +37,7 @@ LOOKS = {  # method: colour, marker
     "RK45": (PURPLE, ">"),
     "source": (VERMILION, "*"),
 }
-STYLES = {"analytic": "-", "differences": (0, (4, 1.5)), "none": (0, (1, 1.2))}
+STYLES: dict[str, Any] = {"analytic": "-", "differences": (0, (4, 1.5)), "none": (0, (1, 1.2))}
 _WORDS = {"analytic": "analytic Jacobian", "differences": "Jacobian by differences", "none": "explicit"}
 _DEFAULT = ("LSODA", "analytic")
 _BARS = "Vertical bars: interquartile range of the repeats, drawn upwards from the least time."
@@ -86,7 +87,7 @@ def _draw_source(axes: Axes, rows: pd.DataFrame) -> None:
     axes.plot(rows["error"], rows["seconds_whole_fall"], **_look("source", "none"))
     for row in rows[rows["fraction_of_fall"] < 1.0].itertuples():
         words = f"timed over {100.0 * row.fraction_of_fall:.2g} %\nof the fall"
-        place = {"xytext": (7, 0), "textcoords": "offset points", "va": "center"}
+        place: dict[str, Any] = {"xytext": (7, 0), "textcoords": "offset points", "va": "center"}
         axes.annotate(words, (row.error, row.seconds_whole_fall), size=6.0, color=LOOKS["source"][0], **place)
 
 
@@ -102,7 +103,7 @@ def _look(method: str, jacobian: str) -> dict:
     return look
 
 
-def _name_axes(figure: Figure, bottom: Sequence[Axes], left: Sequence[Axes]) -> None:
+def _name_axes(figure: Figure, bottom: Array, left: Array) -> None:
     for axes in bottom:
         axes.xaxis.set_major_locator(LogLocator(numticks=6))
     for axes in left:

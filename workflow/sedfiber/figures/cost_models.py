@@ -1,8 +1,9 @@
 """What a reduced model costs to train, and what it is worth."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
-from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -72,16 +73,16 @@ def _draw_set(axes: Axes, rows: pd.DataFrame, column: str, top: float) -> None:
         _draw_model(axes, getattr(row, column), row, zorder)
 
 
-def _draw_model(axes: Axes, x: float, row: tuple, zorder: int) -> None:
+def _draw_model(axes: Axes, x: float, row: Any, zorder: int) -> None:
     """Median as a dash, worst as a marker with d in it; a cross with d beside it where a forecast fails."""
     color, fails = VARIANTS[row.variant][1], not np.isfinite(row.E_worst)
     axes.plot(x, row.E_median, "_", color=color, alpha=0.4, markersize=4.0)
     look = {"marker": "x", "color": color, "markersize": 8.0} if fails else _look(row.variant, row.recipe)
     axes.plot(x, row.shown, **look, zorder=zorder)
     tint = "white" if RECIPES[row.recipe][1] and not fails else color
-    place = {"xytext": (7.0 if fails else 0.0, -0.2), "textcoords": "offset points", "va": "center_baseline"}
-    number = f"{row.latent_dim:g}"
-    axes.annotate(number, (x, row.shown), size=5.0, color=tint, ha="center", zorder=zorder, **place)
+    look = {"size": 5.0, "color": tint, "ha": "center", "va": "center_baseline", "zorder": zorder}
+    aside = (7.0 if fails else 0.0, -0.2)
+    axes.annotate(f"{row.latent_dim:g}", (x, row.shown), xytext=aside, textcoords="offset points", **look)
 
 
 def _look(variant: str, recipe: str) -> dict:
@@ -92,7 +93,7 @@ def _look(variant: str, recipe: str) -> dict:
     return {"marker": marker, "linestyle": "none", "markersize": 7.0} | edge
 
 
-def _legend(rows: pd.DataFrame) -> list[Artist]:
+def _legend(rows: pd.DataFrame) -> list[Line2D]:
     """Variants by colour, recipes by filling, and what the numbers are."""
     entries = [
         Line2D([], [], color=color, marker="s", linestyle="none", label=words)
@@ -101,6 +102,6 @@ def _legend(rows: pd.DataFrame) -> list[Artist]:
     ]
     for recipe in (name for name in RECIPES if (rows["recipe"] == name).any()):
         marker, filled = RECIPES[recipe]
-        look = {"color": GREY, "marker": marker, "linestyle": "none", "markerfacecolor": GREY if filled else "white"}
-        entries.append(Line2D([], [], **look, label=_WORDS[recipe]))
+        fill, words = GREY if filled else "white", _WORDS[recipe]
+        entries.append(Line2D([], [], color=GREY, marker=marker, linestyle="none", markerfacecolor=fill, label=words))
     return entries

@@ -1,5 +1,7 @@
 """What beads and hydrodynamics cost, what they change, and where a forecast begins to pay."""
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -94,7 +96,7 @@ def _draw_changes(axes: Axes, rows: pd.DataFrame) -> None:
             marker, _ = CHANGES[kind]
             seen = values > _LEAST
             size, fill = (5.0, color) if name == "RPY" else (2.5, "white")  # others lie on RPY
-            look = {"color": color, "linestyle": line, "markersize": size, "markerfacecolor": fill}
+            look: dict[str, Any] = {"color": color, "linestyle": line, "markersize": size, "markerfacecolor": fill}
             axes.plot(own["n_beads"][seen], values[seen], marker, **look)
 
     for marker, words in CHANGES.values():
@@ -114,7 +116,7 @@ def _finish(axes: Axes, ylabel: str) -> None:
     axes.set(xlabel="beads N", ylabel=ylabel)
     axes.legend(loc="upper left", bbox_to_anchor=(-0.08, -0.2), fontsize=6.5, borderpad=0.0)
     ticks = [tick for tick in (11, 21, 31, 61, 121, 201, 301) if axes.get_xlim()[0] < tick < axes.get_xlim()[1]]
-    axes.set_xticks(ticks, ticks)
+    axes.set_xticks(ticks, [str(tick) for tick in ticks])
     axes.set_xticks([], minor=True)
 
 

@@ -4,6 +4,7 @@ A shape is the fiber seen from its centre bead; a row of shapes has them side by
 """
 
 from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -63,14 +64,14 @@ def time_colors(t: Times) -> Array:
 
 
 def draw_shapes(
-    axes: Axes, shapes: Iterable[Array], offsets: Iterable, colors: Iterable, linewidth: float = 1.2, **look: object
+    axes: Axes, shapes: Iterable[Array], offsets: Iterable, colors: Iterable, linewidth: float = 1.2, **look: Any
 ) -> None:
     """Each shape (N, 2) as a line, moved by its offset (2,); lengths in a."""
     for shape, offset, color in zip(shapes, offsets, colors, strict=True):
         axes.plot(*(shape + np.asarray(offset)).T, color=color, linewidth=linewidth, solid_capstyle="round", **look)
 
 
-def add_time_bar(figure: Figure, panels: Sequence[Axes], **place: object) -> Colorbar:
+def add_time_bar(figure: Figure, panels: Sequence[Axes], **place: Any) -> Colorbar:
     """The colours of `time_colors` as a bar beside or below the panels."""
     bar = figure.colorbar(ScalarMappable(TIME_NORM, SEQUENTIAL), ax=panels, ticks=TIME_TICKS, format="%g", **place)
     bar.ax.minorticks_off()

@@ -2,10 +2,12 @@
 
 import textwrap
 from collections.abc import Sequence
+from typing import Any
 
 import pandas as pd
 from matplotlib.artist import Artist
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 
 from sedfiber.figures.style import GREY
 from sedfiber.figures.table_input import select_columns
@@ -35,18 +37,28 @@ def write_footer(figure: Figure, *tables: pd.DataFrame, notes: Sequence[str] = (
         gid="footer",
     )
     strip = (len(lines) * _LINE + 2.0 * _PAD) / height
-    figure.get_layout_engine().set(rect=(0.0, strip, 1.0, 1.0 - strip))
+    _leave_free(figure, strip)
 
 
 def place_legend_above_footer(figure: Figure, handles: Sequence[Artist], columns: int) -> None:
     """One legend for all panels, between them and the footer, which has to be there already."""
-    engine = figure.get_layout_engine()
-    strip = engine.get()["rect"][1]
-    narrow = {"columnspacing": 1.4, "handletextpad": 0.6, "borderpad": 0.2}
+    strip = _layout(figure).get()["rect"][1]
+    narrow: dict[str, Any] = {"columnspacing": 1.4, "handletextpad": 0.6, "borderpad": 0.2}
     legend = figure.legend(handles=handles, loc="lower center", ncols=columns, bbox_to_anchor=(0.5, strip), **narrow)
     gap = _PAD / _POINTS / figure.get_figheight()
-    top = strip + legend.get_tightbbox().height / figure.bbox.height + gap
-    engine.set(rect=(0.0, top, 1.0, 1.0 - top))
+    top = strip + legend.get_window_extent().height / figure.bbox.height + gap
+    _leave_free(figure, top)
+
+
+def _leave_free(figure: Figure, strip: float) -> None:
+    """Panels keep out of the lowest part of the figure, a fraction of its height."""
+    _layout(figure).set(rect=(0.0, strip, 1.0, 1.0 - strip))
+
+
+def _layout(figure: Figure) -> ConstrainedLayoutEngine:
+    engine = figure.get_layout_engine()
+    assert isinstance(engine, ConstrainedLayoutEngine)  # the style's
+    return engine
 
 
 def _machines(tables: Sequence[pd.DataFrame]) -> list[str]:

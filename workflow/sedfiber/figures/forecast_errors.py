@@ -1,5 +1,7 @@
 """Ensemble-mean forecast error over normalised time: each ℬ, all ℬ, and its two parts."""
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
@@ -84,7 +86,7 @@ def _draw_parts(axes: Axes, rows: pd.DataFrame, shown: list[LegendEntry]) -> Non
             _draw_mean(axes, rows, entry, part, color=entry.color, linestyle=line, linewidth=1.3)
 
 
-def _draw_mean(axes: Axes, rows: pd.DataFrame, entry: LegendEntry, column: str, **look: object) -> None:
+def _draw_mean(axes: Axes, rows: pd.DataFrame, entry: LegendEntry, column: str, **look: Any) -> None:
     mean = rows[(rows["model"] == entry.model) & (rows["B"] == ALL)]
     axes.plot(mean["time_fraction"], mean[column], **look)
 

@@ -89,7 +89,9 @@ def _draw_paths(axes: Axes, couples: Couples) -> None:
     """All start at y = 0: from left to right ℬ ascends, the best before the worst; x is offset."""
     for places, (B, couple) in zip(_places(couples)[0], couples.items(), strict=True):
         starts = [_draw_path(axes, *one) for one in zip(couple, places, LINES, strict=True)]
-        axes.text(np.mean(starts), 0.6 * couple[0].truth.length, f"{B:g}", fontsize=6.5, horizontalalignment="center")
+        axes.text(
+            float(np.mean(starts)), 0.6 * couple[0].truth.length, f"{B:g}", fontsize=6.5, horizontalalignment="center"
+        )
     axes.set(aspect="equal", xticks=[], xlabel=f"x, offset; above each pair its {B_SYMBOL}")
 
 

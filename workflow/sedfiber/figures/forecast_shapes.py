@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -43,7 +44,7 @@ def draw_forecast_shapes(pairs: Sequence[Pair]) -> Figure:
     heights = [block.inches for block in blocks]
     layout = ConstrainedLayoutEngine(h_pad=0.5 * _PAD, hspace=0.0)
     figure = Figure(figsize=(PAGE_WIDTH, sum(heights) + _PAD * len(blocks) + 0.95), layout=layout)
-    widths = {"width_ratios": (_SHAPES_WIDTH, PAGE_WIDTH - _SHAPES_WIDTH)}
+    widths: dict[str, Any] = {"width_ratios": (_SHAPES_WIDTH, PAGE_WIDTH - _SHAPES_WIDTH)}
     panels = figure.subplots(len(blocks), 2, squeeze=False, sharex="col", height_ratios=heights, **widths)
     for block, (left, right) in zip(blocks, panels, strict=True):
         block.draw(left)

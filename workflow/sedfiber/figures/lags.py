@@ -1,5 +1,7 @@
 """By how much time forecasts are late, and what error is left when that is taken out."""
 
+from typing import Any
+
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,7 +22,7 @@ from sedfiber.figures.table_input import in_set, select_columns
 _LINEAR = 0.1  # a/U_s: lags within this are on the linear part of the axis
 _DODGE = 1.05  # factor of ℬ between two forecasters' points
 _SHARES = {1.0: ("-", "all"), 0.1: ((0, (6, 3)), "a tenth"), 0.01: ((0, (2, 2)), "a hundredth")}  # that is left
-_POINT = {"markersize": 3.2, "markerfacecolor": "none", "markeredgewidth": 0.7, "linestyle": ""}
+_POINT: dict[str, Any] = {"markersize": 3.2, "markerfacecolor": "none", "markeredgewidth": 0.7, "linestyle": ""}
 
 
 def draw(table: pd.DataFrame, model: str) -> Figure:

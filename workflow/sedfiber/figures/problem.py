@@ -1,6 +1,7 @@
 """The problem: a chain of beads let go at an angle, its centre bead, its path and its end."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -23,10 +24,9 @@ _HALF_WIDTH, _TOP = 0.64, 0.42  # of the sketch around the start's centre bead; 
 
 _ANGLE = 0.3  # radius of the arc of θ₀
 _LINE = {"shrinkA": 0.0, "shrinkB": 0.0, "linewidth": 0.8}
-_MEASURE = {"arrowprops": _LINE | {"arrowstyle": "<->", "mutation_scale": 7.0}}
-_ARROW = {"arrowprops": _LINE | {"arrowstyle": "->", "mutation_scale": 7.0}}
-_MIDDLE = {"horizontalalignment": "center", "verticalalignment": "center"}
-_OFFSET = {"textcoords": "offset points"}
+_MEASURE: dict[str, Any] = {"arrowprops": _LINE | {"arrowstyle": "<->", "mutation_scale": 7.0}}
+_ARROW: dict[str, Any] = {"arrowprops": _LINE | {"arrowstyle": "->", "mutation_scale": 7.0}}
+_OFFSET: dict[str, Any] = {"textcoords": "offset points"}
 
 
 def draw(fall: Path) -> Figure:
@@ -113,21 +113,26 @@ def _draw_beads(axes: Axes, places: Array, radius: float) -> None:
 def _draw_start(axes: Axes, fall: _Fall) -> None:
     """The straight fiber, its angle to the dashed x-axis and its length."""
     axes.plot([-0.08, 0.5], [0.0, 0.0], color=BLACK, linewidth=0.8, linestyle=(0, (4, 3)))
-    axes.text(0.54, 0.0, "x", **_MIDDLE)
+    _write(axes, (0.54, 0.0), "x")
     axes.add_patch(Arc((0.0, 0.0), 2 * _ANGLE, 2 * _ANGLE, theta2=np.degrees(fall.theta0), linewidth=0.8))
     middle = np.array([np.cos(0.5 * fall.theta0), np.sin(0.5 * fall.theta0)])
-    axes.text(*((_ANGLE + 0.06) * middle), "θ₀", **_MIDDLE)
+    _write(axes, (_ANGLE + 0.06) * middle, "θ₀")
     _draw_beads(axes, fall.shapes[0], fall.radius)
     ends = [end + (fall.radius + 0.05) * fall.across for end in (-0.5 * fall.along, 0.5 * fall.along)]
     axes.annotate("", *ends, **_MEASURE)
-    place = (fall.radius + 0.1) * fall.across
-    axes.text(*place, "L = 2aN", rotation=np.degrees(fall.theta0), rotation_mode="anchor", **_MIDDLE)
+    along = {"rotation": np.degrees(fall.theta0), "rotation_mode": "anchor"}
+    _write(axes, (fall.radius + 0.1) * fall.across, "L = 2aN", **along)
     axes.annotate("$\\mathbf{c}(0)$", (0.0, 0.0), (2, -19), **_OFFSET)
+
+
+def _write(axes: Axes, place: Array | tuple[float, float], text: str, **look: Any) -> None:
+    """Words around ``place`` (2,)."""
+    axes.text(place[0], place[1], text, horizontalalignment="center", verticalalignment="center", **look)
 
 
 def _draw_gravity(axes: Axes) -> None:
     axes.annotate("", (-0.55, 0.05), (-0.55, 0.35), arrowprops={"arrowstyle": "-|>", "linewidth": 1.2, "color": BLACK})
-    axes.text(-0.46, 0.2, "$\\mathbf{F}_g$", **_MIDDLE)
+    _write(axes, (-0.46, 0.2), "$\\mathbf{F}_g$")
 
 
 def _magnify(axes: Axes, fall: _Fall) -> None:
@@ -138,7 +143,7 @@ def _magnify(axes: Axes, fall: _Fall) -> None:
     seen = 3.4 * fall.radius
     scale = _LENS_RADIUS / seen
     for middle, radius in ((beads[1], seen), (_LENS, _LENS_RADIUS)):
-        axes.add_patch(Circle(middle, radius, facecolor="none", edgecolor=GREY, linewidth=0.7, zorder=4))
+        axes.add_patch(Circle(tuple(middle), radius, facecolor="none", edgecolor=GREY, linewidth=0.7, zorder=4))
     sight = (_LENS - beads[1]) / np.hypot(*(_LENS - beads[1]))
     for aside in (np.array([-sight[1], sight[0]]), np.array([sight[1], -sight[0]])):
         axes.plot(*np.transpose([beads[1] + seen * aside, _LENS + _LENS_RADIUS * aside]), color=GREY, linewidth=0.5)
@@ -148,9 +153,9 @@ def _magnify(axes: Axes, fall: _Fall) -> None:
     axes.add_collection(PatchCollection(circles, facecolor=SKY, edgecolor=BLACK, linewidth=0.6, zorder=3))
     side = -1.35 * radius * fall.across
     axes.annotate("", places[0] + side, places[1] + side, **_MEASURE, zorder=5)
-    axes.text(*(places[:2].mean(axis=0) + 1.75 * side), "2a", **_MIDDLE, fontsize=7.0)
+    _write(axes, places[:2].mean(axis=0) + 1.75 * side, "2a", fontsize=7.0)
     axes.annotate("", places[2] + radius * fall.across, places[2], **_ARROW, zorder=5)
-    axes.text(*(places[2] + 1.5 * radius * fall.across), "a", **_MIDDLE, zorder=5, fontsize=7.0)
+    _write(axes, places[2] + 1.5 * radius * fall.across, "a", zorder=5, fontsize=7.0)
 
 
 def _draw_whole(axes: Axes, fall: _Fall) -> None:

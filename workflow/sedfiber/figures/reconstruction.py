@@ -1,5 +1,8 @@
 """Reconstruction loss against latent dimension, and block diagrams of the variants that it compares."""
 
+from typing import Any
+
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
@@ -43,7 +46,7 @@ def draw(table: pd.DataFrame) -> Figure:
     rows = select_columns(table, ("method", "variant", "test_set"), numbers)
     _require_known(rows)
     figure = Figure(figsize=(PAGE_WIDTH, 4.6))
-    upper, lower = figure.subfigures(2, 1, height_ratios=(3.35, 1.25))
+    upper, lower = np.array(figure.subfigures(2, 1, height_ratios=(3.35, 1.25)))
     _draw_losses(upper, rows)
     _draw_variants(lower)
     return figure
@@ -76,7 +79,7 @@ def _draw_set(axes: Axes, rows: pd.DataFrame) -> None:
         loss = chosen.groupby("latent_dim")["loss"].agg(["mean", "min", "max"])
         spread = (loss["mean"] - loss["min"], loss["max"] - loss["mean"])
         shifted = loss.index + DODGE * (place - (len(CURVES) - 1) / 2)
-        look = {"marker": marker, "markersize": 3.8, "capsize": 2.0}
+        look: dict[str, Any] = {"marker": marker, "markersize": 3.8, "capsize": 2.0}
         axes.errorbar(shifted, loss["mean"], spread, color=color, label=label, **look)
         if variant == CHOSEN and WORST in chosen:
             worst = chosen.groupby("latent_dim")[WORST].max()

@@ -1,6 +1,7 @@
 """A scene's run: snapshots in space, and what changes along the way."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,7 +17,7 @@ from sedfiber.simulation.trajectory_file import read_trajectory
 
 SNAPSHOTS = 8
 FIBER_COLORS = (BLUE, VERMILION, ORANGE, PURPLE)
-AXIS_STYLES = dict(zip("xyz", ("-", "--", ":"), strict=True))
+AXIS_STYLES: dict[str, Any] = dict(zip("xyz", ("-", "--", ":"), strict=True))
 _MARGIN = 4.0  # a, around the beads
 _STILL = 2.0  # fiber lengths: a run that stays within these is drawn in one fixed frame
 _LEAST_EXTENT = 1e-8  # of L: what reaches less far is flat up to rounding
@@ -36,13 +37,16 @@ def draw_scene(run: Trajectory, title: str) -> Figure:
     flat = [Frames(run.fibers[..., view]) for view in views]
     heights = [_FRAME * frames.shape for frames in flat]
     figure = Figure(figsize=(PAGE_WIDTH, sum(heights) + 0.25 * len(views) + 2.6))
-    upper, lower = figure.add_gridspec(2, 1, height_ratios=[sum(heights) + 0.25 * len(views), 2.0])
-    grid = upper.subgridspec(len(views), SNAPSHOTS, height_ratios=heights)
+    halves = figure.add_gridspec(2, 1, height_ratios=[sum(heights) + 0.25 * len(views), 2.0])
+    grid = halves[0].subgridspec(len(views), SNAPSHOTS, height_ratios=heights)
     samples = snapshots(run.t, flat[0].seen.reshape(len(run.t), -1, 2), SNAPSHOTS)
     for k, (view, frames) in enumerate(zip(views, flat, strict=True)):
         row = [figure.add_subplot(grid[k, column]) for column in range(SNAPSHOTS)]
         _draw_snapshots(row, run, frames, view, samples, with_times=k == 0)
-    _draw_history(*(figure.add_subplot(half) for half in lower.subgridspec(1, 2)), run)
+    history = halves[1].subgridspec(1, 2)
+    left, right = (figure.add_subplot(history[column]) for column in range(2))
+    _draw_history(left, right, run)
+    place_legend(figure, left, right, columns=5)
     figure.suptitle(title, fontsize="medium")
     return figure
 
@@ -100,7 +104,6 @@ def _draw_history(left: Axes, right: Axes, run: Trajectory) -> None:
     _draw_extents(right, run)
     for axes in (left, right):
         axes.set_xlabel("time / (a/U$_s$)")
-    place_legend(left.figure, left, right, columns=5)
 
 
 def _draw_ends(axes: Axes, run: Trajectory) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -16,7 +17,7 @@ from sedfiber.figures.table_input import select_columns
 
 BRANCHES = {"U": BLUE, "W": VERMILION, "middle": GREEN, "vertical": PURPLE}
 LABELLED_AT = {"U": 0.4, "W": 1.0, "middle": 0.45, "vertical": 0.4}  # of the way along the branch
-STYLES = {
+STYLES: dict[str, Any] = {
     "stable in volume": "-",
     "stable in the plane alone": (0, (4, 1.5)),
     "unstable in the plane": (0, (1, 1.2)),

@@ -8,13 +8,14 @@ date or the name of a program.
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.colors import ListedColormap
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, FigureBase
 from matplotlib.style import context
 from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
 
@@ -109,13 +110,13 @@ def set_plain_ticks(axis: Axis) -> None:
     axis.set_minor_locator(NullLocator())
 
 
-def place_legend(figure: Figure, *panels: Axes, columns: int) -> None:
+def place_legend(figure: FigureBase, *panels: Axes, columns: int) -> None:
     """One legend below all panels, each label once, where it can cover no data."""
-    entries = {}
+    entries: dict[str, Any] = {}
     for axes in panels:
         handles, labels = axes.get_legend_handles_labels()
         entries |= dict(zip(labels, handles, strict=True))
-    figure.legend(entries.values(), entries.keys(), loc="outside lower center", ncols=columns)
+    figure.legend(list(entries.values()), list(entries), loc="outside lower center", ncols=columns)
 
 
 def scientific(value: float) -> str:

@@ -1,5 +1,7 @@
 """Where the third dimension begins to matter: the out-of-plane rate against ℬ, and disturbances over time."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -42,7 +44,7 @@ def _draw_rates(axes: Axes, rows: pd.DataFrame, turn: float) -> None:
     axes.axhline(0.0, color=GREY, linewidth=0.8)
     axes.axvline(turn, color=BLACK, linestyle=(0, (2, 2)), linewidth=1.0)
     axes.plot(rows["B"], rows["predicted_rate"], color=BLUE, label="leading rate of the terminal shape")
-    look = {"color": VERMILION, "marker": "o", "linestyle": "none", "markerfacecolor": "none"}
+    look: dict[str, Any] = {"color": VERMILION, "marker": "o", "linestyle": "none", "markerfacecolor": "none"}
     axes.plot(rows["B"], rows["measured_rate"], label="measured in volume", **look)
     axes.set(xscale="log", xlabel=f"elasto-gravitational number {B_SYMBOL}", ylabel="out-of-plane rate / (U$_s$/a)")
     set_plain_ticks(axes.xaxis)

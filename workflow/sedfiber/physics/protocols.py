@@ -5,6 +5,7 @@ relative to the centre bead, all that a part without a place of its own depends 
 positions in the laboratory, which a wall or a flow needs.
 """
 
+from collections.abc import Callable
 from typing import Protocol
 
 from sedfiber.core.array_types import Band, History, Matrix, Positions, State
@@ -59,19 +60,27 @@ class Flow(Protocol):
 
 
 class Equations(Protocol):
-    """What an integrator asks of the equations of motion ``ẏ = f(t, y)``."""
+    """What an integrator asks of equations ``ẏ = f(t, y)``; without a Jacobian LSODA takes differences."""
 
-    @property
-    def mobility(self) -> Mobility: ...
     @property
     def rhs_count(self) -> int: ...
     @property
     def jacobian_count(self) -> int: ...
 
-    def to_state(self, x: Positions) -> State: ...
-    def to_positions(self, states: State) -> History: ...
+    @property
+    def jacobian(self) -> Callable[[float, State], Matrix] | None: ...
+
     def rhs(self, t: float, y: State) -> State: ...
-    def jacobian(self, t: float, y: State) -> Matrix: ...
 
     def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
         """Why no step may succeed at a state, and what to try, where the mobility is to blame."""
+
+
+class BeadEquations(Equations, Protocol):
+    """Equations of motion of beads: their states stand for positions."""
+
+    @property
+    def mobility(self) -> Mobility: ...
+
+    def to_state(self, x: Positions) -> State: ...
+    def to_positions(self, states: State) -> History: ...

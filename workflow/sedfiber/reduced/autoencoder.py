@@ -46,13 +46,15 @@ class LinearEncoder(nn.Module):
     training; 0 units for an encoder that does not see ℬ.
     """
 
+    allowed: Tensor
+
     def __init__(self, start: Tensor, allowed: Tensor, n_hidden: int, generator: torch.Generator) -> None:
         super().__init__()
         self.matrix = nn.Parameter(start.clone())
         self.register_buffer("allowed", allowed.to(start))
         self.change = perceptron([1, n_hidden, start.numel()], generator) if n_hidden else None
         if self.change is not None:
-            nn.init.zeros_(self.change[-1].weight)
+            nn.init.zeros_(list(self.change.parameters())[-2])  # the last layer's weights
 
     def forward(self, z: Tensor, b: Tensor) -> Tensor:
         """(S, r) and (S, 1) give (S, d)."""
@@ -67,6 +69,10 @@ class Autoencoder(nn.Module):
 
     Raises InputError for an unknown variant.
     """
+
+    modes: Tensor
+    scale: Tensor
+    pick: Tensor
 
     def __init__(
         self,
@@ -114,9 +120,9 @@ class Autoencoder(nn.Module):
     def context_of(self, B: float, terminal: Positions) -> Tensor:
         """[b, h_term] (1, 1 + d) for one ℬ, terminal shape (N, 3) in ``a``; a model of one dtype throughout."""
         shape = terminal.reshape(1, -1) / self.scales.half_length
-        b, shape = (torch.tensor(x, dtype=self.modes.dtype) for x in ([[float(self.scales.log_B(B))]], shape))
+        b = torch.tensor([[float(self.scales.log_B(B))]], dtype=self.modes.dtype)
         with torch.no_grad():
-            return self.context(b, self.modal(shape))
+            return self.context(b, self.modal(torch.tensor(shape, dtype=self.modes.dtype)))
 
     def encode(self, residual: Tensor, context: Tensor) -> Tensor:
         """h = E(X̌; ℬ): (S, 3N) gives (S, d)."""

@@ -43,7 +43,8 @@ class Forecaster:
     """A loaded model; ``model.scales`` holds the range it was trained on."""
 
     def __init__(self, model: TrainedModel, curve: TerminalCurve | None = None, hydrodynamics: str = "RPY"):
-        self.model, self.curve = model, curve
+        self.model: Any = model  # compiled, or plain without a sweep: imported by `load_model` where it is used
+        self.curve = curve
         self.hydrodynamics = hydrodynamics if curve is None else curve.hydrodynamics
 
     def forecast(self, B: float, theta0: float, t: Times, shape: Any = None) -> History:
@@ -83,8 +84,8 @@ class Forecaster:
 
     def sweep(
         self,
-        B: Sequence[float],
-        theta0: Sequence[float],
+        B: Sequence[float] | Array,
+        theta0: Sequence[float] | Array,
         interval: float,
         counts: Sequence[int],
         out: Array | None = None,
@@ -122,7 +123,7 @@ class Forecaster:
         return f"B from {scales.B_min:g} to {scales.B_max:g} and |theta0| up to {scales.theta0_max:.4g}"
 
     def _scene(self, B: float, theta0: float, shape: Any) -> Scene:
-        facts = {"n_beads": self.model.scales.n_beads, "hydrodynamics": self.hydrodynamics}
+        facts: dict[str, Any] = {"n_beads": self.model.scales.n_beads, "hydrodynamics": self.hydrodynamics}
         if shape is None:
             return Scene(B, theta0, **facts)
         given = Scene(B, theta0, space="volume", shape=shape, **facts)

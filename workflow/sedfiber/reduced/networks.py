@@ -33,6 +33,9 @@ class MirrorNetwork(nn.Module):
     column at all for a network that has neither.
     """
 
+    signs_in: Tensor
+    signs_out: Tensor
+
     def __init__(
         self,
         signs_in: Tensor,

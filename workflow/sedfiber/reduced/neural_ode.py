@@ -23,6 +23,10 @@ N_CENTRE = 2
 class NeuralOde(nn.Module):
     """Rates; ``latent_scale`` (d,) is std(h), ``rate_scale`` (d + 2,) the size of the rates."""
 
+    latent_scale: Tensor
+    rate_scale: Tensor
+    damping: Tensor
+
     def __init__(
         self, hidden: tuple[int, ...], damping: float, latent_scale: Tensor, rate_scale: Tensor, seed: int
     ) -> None:

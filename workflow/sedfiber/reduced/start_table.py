@@ -60,13 +60,14 @@ def _rows(path: Path) -> Iterator[tuple[str, dict[str, Any]]]:
 def _csv_rows(path: Path) -> Iterator[tuple[str, dict[str, Any]]]:
     with path.open(encoding="utf-8-sig", newline="") as file:  # spreadsheets begin a file with a mark
         reader = csv.DictReader(file, skipinitialspace=True, strict=True)
-        _require_columns(path, [name.strip() for name in reader.fieldnames or []])
-        reader.fieldnames = [name.strip() for name in reader.fieldnames]
+        names = [name.strip() for name in reader.fieldnames or []]
+        _require_columns(path, names)
+        reader.fieldnames = names
         for row in reader:
             place = f"line {reader.line_num}"
             if None in row or None in row.values():
                 cells = sum(cell is not None for key, cell in row.items() if key) + len(row.get(None, []))
-                wanted = len(reader.fieldnames)
+                wanted = len(names)
                 raise InputError(f"{path.name}, {place}: {cells} cells; give {wanted}, as many as there are columns")
             yield place, {key: cell.strip() for key, cell in row.items()}
 

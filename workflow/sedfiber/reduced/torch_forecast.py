@@ -61,9 +61,9 @@ class ForecastModel:
         context = self._context(starts)
         h, drift = self._integrate(self._latent(starts, context), context, self._pace(starts), t)
         residual = self._encoder.decode(h.flatten(0, 1), context.expand(len(t), -1, -1).flatten(0, 1))
-        residual = residual.unflatten(0, h.shape[:2]).transpose(0, 1).numpy()
-        drift = nn.functional.pad(drift, (0, 3 - N_CENTRE)).transpose(0, 1).numpy()
-        return np.stack([self._assemble(*parts, t) for parts in zip(starts, residual, drift, strict=True)])
+        residuals = residual.unflatten(0, h.shape[:2]).transpose(0, 1).numpy()
+        drifts = nn.functional.pad(drift, (0, 3 - N_CENTRE)).transpose(0, 1).numpy()
+        return np.stack([self._assemble(*parts, t) for parts in zip(starts, residuals, drifts, strict=True)])
 
     def start_error(self, start: Start) -> float:
         """How far the model's first shape, D(E(X̌(0))), is from the start: rms bead distance over L."""

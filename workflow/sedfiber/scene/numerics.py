@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import number_within, one_of, positive_number, yes_or_no
 from sedfiber.physics.integrators import INTEGRATORS, STOCHASTIC, AboveWall, Integrator, StochasticMidpoint, Tolerances
-from sedfiber.physics.protocols import Equations
+from sedfiber.physics.protocols import BeadEquations
 from sedfiber.physics.system import System
 from sedfiber.scene.parts import Noise
 from sedfiber.scene.scene import Scene
@@ -64,7 +64,7 @@ class Numerics:
             _require_step(scene, scene.noise, self.interval)
         return replace(self, integrator=self.integrator or fitting)
 
-    def integrator_for(self, system: Equations, scene: Scene) -> Integrator:
+    def integrator_for(self, system: BeadEquations, scene: Scene) -> Integrator:
         """The chosen integrator on ``system``."""
         tolerances = Tolerances(self.rtol, self.atol)
         integrator: Integrator
@@ -73,7 +73,7 @@ class Numerics:
             integrator = StochasticMidpoint(system, tolerances, scene.noise.temperature, scene.noise.step, scene.seed)
         else:
             integrator = INTEGRATORS[self.integrator or DEFAULT_INTEGRATOR](system, tolerances)
-        return integrator if scene.wall is None else AboveWall(integrator)
+        return integrator if scene.wall is None else AboveWall(integrator, system)
 
 
 def _require_step(scene: Scene, noise: Noise, interval: float) -> None:

@@ -61,8 +61,9 @@ def audit(scene: Scene, run: Run) -> list[Verdict]:
         found.append(_bottom(scene.gravity, scene.depth, run.positions))
     if scene.wall is None and scene.flow is not None and scene.flow.half_width is not None:
         found.append(_channel(scene.flow.half_width, run.positions))
-    if scene.stretching is not None and scene.n_beads > 1:
-        found.append(_stretch(largest_strain(shapes, scene.n_beads), scene.stretching.factor))
+    strain = largest_strain(shapes, scene.n_beads)
+    if scene.stretching is not None and strain is not None:
+        found.append(_stretch(strain, scene.stretching.factor))
     return found
 
 

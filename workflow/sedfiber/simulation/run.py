@@ -1,6 +1,7 @@
 """Run one scene, check the result, and on request estimate its error."""
 
 import hashlib
+from collections.abc import Iterator
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Protocol
@@ -58,7 +59,8 @@ def simulate(
     system = system_of(scene)
     integrator = numerics.integrator_for(system, scene)
     monitor = SettlingMonitor(scene, system, numerics.t_end is not None, numerics.max_time)
-    states = _integrate(integrator, scene, monitor, numerics, progress)
+    path = integrator.states(system.to_state(scene.start()), numerics.interval)
+    states = _collect(path, monitor, numerics, progress)
     run = Run.of(system, numerics.interval * np.arange(len(states)), states)
     settled_to = monitor.settled_to(run.states[-1], run.shapes[-1])
     run, settled, distance = _cut(run, monitor.terminal, settled_to, scene, numerics)
@@ -81,14 +83,12 @@ def system_of(scene: Scene) -> System | MirrorSymmetric:
     return MirrorSymmetric(system) if scene.is_mirror_symmetric else system
 
 
-def _integrate(
-    integrator: Integrator, scene: Scene, monitor: SettlingMonitor, numerics: Numerics, progress: Watcher | None
-) -> State:
+def _collect(path: Iterator[State], monitor: SettlingMonitor, numerics: Numerics, progress: Watcher | None) -> State:
     """Collect states (T, beads d + 1) until the end, or until the run has settled beyond doubt."""
     t_end = numerics.t_end
     last = np.inf if t_end is None else np.floor(t_end / numerics.interval * (1 + 1e-12))
     collected: list[State] = []
-    for k, y in enumerate(integrator.states(integrator.system.to_state(scene.start()), numerics.interval)):
+    for k, y in enumerate(path):
         collected.append(y)
         if progress:
             progress(k * numerics.interval, t_end)

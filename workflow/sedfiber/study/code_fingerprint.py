@@ -59,7 +59,7 @@ def _parsed(path: Path) -> _Module:
     imported = tuple(target for one in statements for target in _import_targets(one))
     for one in statements:
         if isinstance(body := getattr(one, "body", None), list):
-            one.body = [inner for inner in body if not _is_docstring(inner)]
+            body[:] = [inner for inner in body if not _is_docstring(inner)]
     return _Module(hashlib.sha256(ast.dump(tree).encode()).hexdigest(), imported)
 
 

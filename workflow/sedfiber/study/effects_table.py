@@ -81,8 +81,9 @@ def _costs(scene: Scene, t_end: float) -> dict[str, float]:
 def _integrate(scene: Scene, t_end: float) -> None:
     """The integration alone, without checks and audit."""
     numerics = Numerics().for_scene(scene)
-    integrator = numerics.integrator_for(assemble(scene), scene)
-    for k, _ in enumerate(integrator.states(integrator.system.to_state(scene.start()), numerics.interval)):
+    system = assemble(scene)
+    states = numerics.integrator_for(system, scene).states(system.to_state(scene.start()), numerics.interval)
+    for k, _ in enumerate(states):
         if k * numerics.interval >= t_end:
             return
 

@@ -1,6 +1,7 @@
 """Reconstruction loss of autoencoders and of POD with as many modes, by test set."""
 
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -24,7 +25,7 @@ def reconstruction_rows(models: list[Autoencoder], training: Dataset, tests: lis
     for model in models:
         labels = {"method": "autoencoder", "variant": model.variant, "seed": model.seed}
         count = model.settings.samples_per_trajectory
-        measure = _measure(lambda one, model=model: autoencoder_errors(model, one), model.scales, count)
+        measure = _measure(partial(autoencoder_errors, model), model.scales, count)
         rows += [{**labels, "latent_dim": model.latent_dim, **measure(test)} for test in tests]
     return rows + _pod_rows(models, training, tests)
 
@@ -35,7 +36,7 @@ def _pod_rows(models: list[Autoencoder], training: Dataset, tests: list[Dataset]
     rows = []
     for d in sorted({model.latent_dim for model in models}):
         basis = pod_basis(residuals, d)
-        measure = _measure(lambda one, basis=basis: pod_errors(basis, scales, one), scales, count)
+        measure = _measure(partial(pod_errors, basis, scales), scales, count)
         rows += [{"method": "pod", "variant": None, "seed": None, "latent_dim": d, **measure(test)} for test in tests]
     return rows
 

@@ -3,6 +3,7 @@
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 from sedfiber.core.errors import InputError
 from sedfiber.reduced.dataset import Dataset, read_dataset
@@ -32,5 +33,5 @@ def say(line: str) -> None:
     print(line, flush=True)
 
 
-def _required(name: str) -> dict[str, bool]:
+def _required(name: str) -> dict[str, Any]:
     return {"required": True} if name.startswith("-") else {}

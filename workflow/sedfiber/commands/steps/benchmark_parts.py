@@ -1,6 +1,7 @@
 """``sedfiber benchmark_parts``: the study's scene made of parts, against one kernel written for it alone."""
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import pandas as pd
 from sedfiber.core.atomic_file import require_writable
 from sedfiber.core.csv_file import write_csv
 from sedfiber.core.errors import NumericalError
+from sedfiber.physics.system import System
 from sedfiber.scene.assembly import assemble
 from sedfiber.scene.scene import Scene
 from sedfiber.study.costs import fused_study
@@ -36,7 +38,7 @@ def _rows(n_beads: int) -> list[dict]:
     scene = Scene(1000, 0.5, n_beads)
     system = assemble(scene)
     y, modulus = _bent_state(system, n_beads), scene.modulus
-    pairs = {
+    pairs: dict[str, tuple[Callable, Callable]] = {
         "right-hand side": (lambda: system.rhs(0.0, y), lambda: fused_study.rhs(y, modulus)),
         "Jacobian": (lambda: system.jacobian(0.0, y), lambda: fused_study.jacobian(y, modulus)),
     }
@@ -67,7 +69,7 @@ def _both(pairs: dict, side: int) -> None:
     pairs["Jacobian"][side]()
 
 
-def _bent_state(system, n_beads: int) -> np.ndarray:
+def _bent_state(system: System, n_beads: int) -> np.ndarray:
     """A state along the way: an arc through a radian, bonds a little stretched."""
     angle = np.linspace(-0.5, 0.5, n_beads - 1)
     bonds = 2.001 * np.column_stack([np.cos(angle), np.sin(angle)])

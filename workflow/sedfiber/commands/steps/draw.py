@@ -41,10 +41,10 @@ def run(args: argparse.Namespace) -> None:
 def _drawing(figure: str) -> Callable[..., Figure]:
     """The function that draws the figure."""
     name = f"sedfiber.figures.{figure}"
-    module = import_module(name) if find_spec(name) else None
-    if not hasattr(module, "draw"):
+    draw = getattr(import_module(name), "draw", None) if find_spec(name) else None
+    if draw is None:
         raise InputError(f"figure: sedfiber.figures has no module {figure!r} with a function draw")
-    return module.draw
+    return draw
 
 
 def _given(draw: Callable[..., Figure], text: str) -> dict[str, Any]:

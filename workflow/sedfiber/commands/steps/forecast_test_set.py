@@ -9,7 +9,7 @@ import torch
 
 from sedfiber.commands.steps._data import add_split
 from sedfiber.core.atomic_file import require_writable
-from sedfiber.reduced.dataset import Dataset, read_dataset
+from sedfiber.reduced.dataset import Dataset, SettlingFall, read_dataset
 from sedfiber.reduced.dataset_file import write_dataset
 from sedfiber.reduced.forecast_start import Start
 from sedfiber.reduced.model_files import load_forecast_model
@@ -31,14 +31,14 @@ def run(args: argparse.Namespace) -> None:
     write_dataset(forecast_all(load_forecast_model(args.model), truth), args.output)
 
 
-def forecast_all(model: ForecastModel, truth: Dataset) -> list:
+def forecast_all(model: ForecastModel, truth: Dataset) -> list[SettlingFall]:
     """Every trajectory of ``truth`` with its positions replaced by the forecast."""
     longest = max((trajectory.t for trajectory in truth), key=len)
     positions = model.forecast_many([Start.of(trajectory) for trajectory in truth], longest)
     return [_cut(trajectory, longest, rows) for trajectory, rows in zip(truth, positions, strict=True)]
 
 
-def _cut(trajectory, t: np.ndarray, positions: np.ndarray):
+def _cut(trajectory: SettlingFall, t: np.ndarray, positions: np.ndarray) -> SettlingFall:
     n = len(trajectory.t)
     if not np.array_equal(trajectory.t, t[:n]):
         raise ValueError("trajectories of one split must share their sample times")

@@ -12,7 +12,7 @@ from sedfiber.core.csv_file import write_csv
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import positive_number, whole_number
 from sedfiber.scene.scene import Scene
-from sedfiber.simulation.equilibria.branches import Vertical, trace_sections
+from sedfiber.simulation.equilibria.branches import Section, Vertical, trace_sections
 from sedfiber.simulation.equilibria.states import (
     MEANINGFUL,
     THRESHOLD_COLUMNS,
@@ -35,7 +35,7 @@ def run(args: argparse.Namespace) -> None:
     scene, grid = made_from(args.settings, _asked)
     ends = grid[0], grid[-1]
     sections, remark = trace_sections(scene, *ends)
-    branches = [*sections, Vertical(scene, grid)]
+    branches: list[Section | Vertical] = [*sections, Vertical(scene, grid)]
     rows = [row for branch in branches for row in state_rows(branch, grid, *ends)]
     thresholds = pd.DataFrame(threshold_rows(branches, *ends), columns=THRESHOLD_COLUMNS)
     _report(thresholds, remark, *disagreement(rows))

@@ -1,7 +1,7 @@
 """``sedfiber train_node``: the neural ODE on a trained autoencoder, together a forecast model."""
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from pathlib import Path
 
@@ -18,7 +18,10 @@ from sedfiber.reduced.training.settings import NodeSettings, SourceNodeSettings
 from sedfiber.reduced.training.train_node import train_node
 from sedfiber.reduced.training.train_node_source import train_node_source
 
-RECIPES = {"rollout": (train_node, NodeSettings), "source": (train_node_source, SourceNodeSettings)}
+RECIPES: dict[str, tuple[Callable, type]] = {
+    "rollout": (train_node, NodeSettings),
+    "source": (train_node_source, SourceNodeSettings),
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -46,29 +46,30 @@ _FLAT = 1e-6  # a: how far from the plane a planar fall may be
 def explorer_page(folder: Path, datasets: Sequence[Path]) -> str:
     """The page for the model in ``folder`` and the falls of the data sets; raises InputError for what does not fit."""
     forecaster = load_model(folder)
-    if forecaster.curve is None:
+    curve = forecaster.curve
+    if curve is None:
         raise InputError(f"model: {folder} has no {CURVE} beside it; make it with solve_terminal_curve")
     given = [fall for path in datasets for fall in _falls_of(path, forecaster)]
-    falls = [fall for fall in given if _is_within_range(fall, forecaster)]
+    falls = [fall for fall in given if forecaster.covers(fall.B, fall.theta0) and curve.covers(fall.B)]
     if not falls:
         raise InputError(
             f"dataset: no fall is within the model's range ({forecaster.range_words()}); give some that are"
         )
     tensors, card = read_model(folder)
-    return _filled_in(_data(forecaster, tensors, falls), _words(forecaster, falls, len(given), card))
+    return _filled_in(_data(forecaster, curve, tensors, falls), _words(forecaster, falls, len(given), card))
 
 
-def _data(forecaster: Forecaster, tensors: Tensors, falls: Sequence[Trajectory]) -> dict:
+def _data(forecaster: Forecaster, curve: TerminalCurve, tensors: Tensors, falls: Sequence[Trajectory]) -> dict:
     """What the script reads; `embedded` in data.js."""
     half_length = forecaster.model.scales.half_length
     quantum = max(np.abs(plane_shapes(fall)).max() for fall in falls) / _LARGEST
     return {
         "model": _model(forecaster, tables(tensors, half_length, dim=2), Encoder(tensors, half_length)),
-        "curve": _curve(forecaster.curve),
+        "curve": _curve(curve),
         "method": _method(),
         "settling": {"settled": SETTLED, "confirmed": CONFIRMED},
         "sets": [{"split": split, "color": SETS[split][1], "name": SETS[split][2]} for split in _splits(falls)],
-        "falls": [_fall(fall, forecaster.curve, quantum) for fall in falls],
+        "falls": [_fall(fall, curve, quantum) for fall in falls],
         "quantum": quantum,
     }
 
@@ -93,11 +94,6 @@ def _misfit(fall: Trajectory, forecaster: Forecaster) -> str:
     if len(fall.t) < _FEWEST_SAMPLES or not (np.isfinite(fall.t).all() and np.isfinite(fall.positions).all()):
         return f"has fewer than {_FEWEST_SAMPLES} samples or values that are not finite"
     return "leaves the plane z = 0" if np.abs(fall.positions[..., 2]).max() > _FLAT else ""
-
-
-def _is_within_range(fall: Trajectory, forecaster: Forecaster) -> bool:
-    """Whether the page can forecast it: it knows nothing of what a forecast is outside the training."""
-    return forecaster.covers(fall.B, fall.theta0) and forecaster.curve.covers(fall.B)
 
 
 def _splits(falls: Sequence[Trajectory]) -> list[str]:

@@ -6,6 +6,7 @@ Frames are a fixed number of pixels and the coding is lossless, so the same inpu
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -67,10 +68,12 @@ def _draw_frames(film: Film) -> list[Image.Image]:
 
 def blank_film(height: float) -> Figure:
     """A figure of the width of every film, ``height`` inches high, on which panels are placed by hand."""
-    return Figure(figsize=(WIDTH, height), dpi=DPI, layout="none")
+    figure = Figure(figsize=(WIDTH, height), dpi=DPI)
+    figure.set_layout_engine("none")
+    return figure
 
 
-def add_panel(figure: Figure, left: float, bottom: float, width: float, height: float, **look: object) -> Axes:
+def add_panel(figure: Figure, left: float, bottom: float, width: float, height: float, **look: Any) -> Axes:
     """Axes placed in inches."""
     across, up = figure.get_size_inches()
     return figure.add_axes((left / across, bottom / up, width / across, height / up), **look)
@@ -86,7 +89,12 @@ class Beads:
 
     def __init__(self, axes: Axes, count: int, diameter: float, colors: object) -> None:
         size = np.full(count, diameter)  # one a bead, or Agg would move each to the next whole pixel
-        look = {"units": "xy", "facecolors": colors, "linewidths": 0.0, "offset_transform": axes.transData}
+        look: dict[str, Any] = {
+            "units": "xy",
+            "facecolors": colors,
+            "linewidths": 0.0,
+            "offset_transform": axes.transData,
+        }
         self.artist = EllipseCollection(size, size, np.zeros(count), offsets=np.zeros((count, 2)), **look)
         axes.add_collection(self.artist, autolim=False)
 
@@ -98,7 +106,7 @@ class Beads:
 class RunningCurve:
     """A curve of which the past is bold; the whole is pale behind it."""
 
-    def __init__(self, axes: Axes, t: Times, values: Array, color: str, **look: object) -> None:
+    def __init__(self, axes: Axes, t: Times, values: Array, color: str, **look: Any) -> None:
         axes.plot(t, values, color=color, linewidth=0.9, alpha=0.3)
         (self.line,) = axes.plot([], [], color=color, linewidth=1.5, **look)
         self._t, self._values = t, values

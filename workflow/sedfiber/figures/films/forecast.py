@@ -1,5 +1,7 @@
 """A forecast over the true fall: close up, along the whole path, and how large the error is."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -32,10 +34,12 @@ def film_forecast(truth: Trajectory, forecast: Trajectory) -> Film:
     path = _Path(add_panel(figure, *_PATH), truth, forecast)
     curves = _draw_errors(add_panel(figure, *_ERRORS), truth, errors)
 
+    parts: list[Any] = [close_up, path, *curves]
+
     def show(sample: int) -> None:
         fallen = truth.centre[0, 1] - truth.centre[sample, 1]
         clock.set_text(f"t = {truth.t[sample]:.1f} a/U$_s$,  fallen {fallen:.0f} a")
-        for part in (close_up, path, *curves):
+        for part in parts:
             part.show(sample)
 
     moving = [clock, *close_up.artists, *path.lines, *(curve.line for curve in curves)]

@@ -1,8 +1,11 @@
 """A scene's run: fibers and wall close up, seen along z and in volume along y too; and how extended each fiber is."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 
 from sedfiber.core.array_types import Array
 from sedfiber.figures.films.film import WIDTH, Beads, Film, RunningCurve, add_panel, blank_film, frame_samples
@@ -33,9 +36,11 @@ def film_scene(run: Trajectory, title: str) -> Film:
     clock = figure.text(0.98, top, "", fontsize=8.5, horizontalalignment="right")
     height = run.fibers[..., 1].mean(axis=(1, 2))
 
+    parts: list[Any] = [*drawn, *curves]
+
     def show(sample: int) -> None:
         clock.set_text(f"t = {run.t[sample]:.1f} a/U$_s$,  mean height {round(height[sample])} a")
-        for part in (*drawn, *curves):
+        for part in parts:
             part.show(sample)
 
     moving = [clock, *(artist for view in drawn for artist in view.artists), *(curve.line for curve in curves)]
@@ -52,7 +57,7 @@ class _View:
         axes.set(xlim=(-across, across), ylim=(-up, up), xticks=[], yticks=[])
         axes.set_title(words, loc="left", fontsize=7.5)
         draw_wall(axes, wall, view)
-        self._walls = [(patch, patch.get_xy()) for patch in axes.patches]
+        self._walls = [(patch, patch.get_xy()) for patch in axes.patches if isinstance(patch, Polygon)]
         self._beads = Beads(axes, n_fibers * n_beads, 2.0, _bead_colors(n_fibers, n_beads))
         self.artists = [*axes.patches, self._beads.artist]
 

@@ -40,6 +40,7 @@ class _SciPyIntegrator(Integrator):
 
     def _jacobian(self, t: float, y: State) -> Matrix:
         """Finite, or an error here: SciPy's factorisation would end in one without a time."""
+        assert self.system.jacobian is not None
         jac = self.system.jacobian(t, y)
         if not np.isfinite(jac).all():
             raise self.stuck(t, y, "the Jacobian is not finite", "try a smaller --rtol")

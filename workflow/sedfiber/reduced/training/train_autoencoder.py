@@ -37,13 +37,13 @@ def train_autoencoder(
     basis = modal_basis(residuals, settings.modes_per_parity, settings.modes_per_parity)
     model = Autoencoder(variant, latent_dim, basis, Scales.of(training), settings, seed)
     terminal = np.stack([trajectory.terminal.ravel() for trajectory in training])
-    columns = (
+    columns = [
         basis.coefficients(residuals),
         np.repeat([[model.scales.log_B(trajectory.B)] for trajectory in training], count, axis=0),
         np.repeat(basis.coefficients(terminal / model.scales.half_length), count, axis=0),
-    )
-    columns = tuple(torch.tensor(column, dtype=torch.float32) for column in columns)
-    _fit(model, columns, training.names, seed, progress)
+    ]
+    tensors = tuple(torch.tensor(column, dtype=torch.float32) for column in columns)
+    _fit(model, tensors, training.names, seed, progress)
     return model
 
 

@@ -50,7 +50,7 @@ def train_node_source(
 
 def _pairs(training: Dataset, encoder: Autoencoder, scales: Scales) -> tuple[Tensor, ...]:
     """All pairs of neighbouring samples: start h, context, target [h, drift], τ; float32 rows."""
-    columns = [], [], [], []
+    columns: tuple[list[Tensor], ...] = [], [], [], []
     for trajectory in training:
         residual = torch.tensor(residual_history(trajectory, scales))
         context = encoder.context_of(trajectory.B, trajectory.terminal).expand(len(residual), -1)
@@ -81,8 +81,8 @@ def _fit(
         early = step < 2 * settings.iterations // 3
         rate = settings.learning_rate if early else settings.final_learning_rate
         rows = torch.randint(len(pairs[0]), (settings.batch_size,), generator=generator)
-        *columns, which = (column[rows] for column in pairs)
-        errors = _one_step_errors(node, *columns, settings)
+        h, context, target, tau, which = (column[rows] for column in pairs)
+        errors = _one_step_errors(node, h, context, target, tau, settings)
         line.update(step, descent.step(rate, errors.mean(), errors, which))
 
 

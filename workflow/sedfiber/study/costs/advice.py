@@ -6,6 +6,7 @@ how long a right-hand side takes on this machine.
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import pandas as pd
 
@@ -71,10 +72,9 @@ def _offers(question: Question, choices: pd.DataFrame, scale: float) -> list[Off
     near = allowed[allowed["B"].isin(_neighbours(question.B, allowed["B"].unique()))]
     grouped = near.groupby(_KEYS, dropna=False, sort=False)
     largest = grouped[["error_worst", "seconds_median", "preparation_seconds"]].max().reset_index()
-    return [
-        Offer(*row[:-3], error=row[-3], seconds=scale * row[-2], preparation=scale * row[-1])
-        for row in largest.itertuples(index=False, name=None)
-    ]
+    largest[["seconds_median", "preparation_seconds"]] *= scale
+    rows: Iterable[Any] = largest.itertuples(index=False, name=None)
+    return [Offer(*row) for row in rows]
 
 
 def _neighbours(B: float, measured: Iterable[float]) -> list[float]:

@@ -76,7 +76,7 @@ def _sweep_time(many: Sequence[Query], forecaster: Forecaster, precision: str) -
     model, n = forecaster.model, len(many)
     columns = {key: value / n if key.startswith("seconds") else value for key, value in timing.columns.items()}
     counts = {"evaluations": model.evaluations / n, "decoded": model.decoded / n}
-    return columns | counts | {"rhs_units": timing.least / n / timing.beside.least}
+    return columns | counts | {"rhs_units": timing.units / n}
 
 
 def _sweep(

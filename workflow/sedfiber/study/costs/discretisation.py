@@ -97,9 +97,12 @@ def cost_growth(rows: list[dict[str, Any]], start: int = FIT_FROM) -> list[dict[
 def _rest(n_beads: int, mobility: str, rpy: _Rest | None) -> _Rest:
     """The end of a fall; raises SedfiberError where there is none."""
     scene = Scene(B, angle_of(ANGLE_INDEX), n_beads, hydrodynamics=mobility)
-    if not scene.has_terminal_shape and rpy is None:
+    if scene.has_terminal_shape:
+        run = simulate(scene)
+    elif rpy is not None:
+        run = simulate(scene, t_end=rpy.fall.times[-1])
+    else:
         raise NumericalError(f"{mobility} ends with the settling time of RPY, which does not settle")
-    run = simulate(scene) if scene.has_terminal_shape else simulate(scene, t_end=rpy.fall.times[-1])
     fall = FallProblem(scene, len(run.t))
     last = fall.system.to_state(run.positions[-1, :, : scene.dim])
     if scene.has_terminal_shape:
@@ -121,7 +124,7 @@ def _costs(rest: _Rest) -> dict[str, Any]:
     newton = np.eye(y.size) - _STEP * system.jacobian(0.0, y)
     calls = (lambda: system.rhs(0.0, y), lambda: system.jacobian(0.0, y), lambda: lu_factor(newton))
     parts = dict(zip(("rhs_s", "jacobian_s", "lu_s"), (part.least for part in timed_together([*calls])), strict=True))
-    return whole.columns | run.columns | {"rhs_units": whole.least / whole.beside.least} | parts
+    return whole.columns | run.columns | {"rhs_units": whole.units} | parts
 
 
 def _distances(n_beads: int, mobility: str, rests: dict[tuple[int, str], _Rest]) -> dict[str, float]:

@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 from scipy.integrate import BDF, DOP853, LSODA, RK45, OdeSolver, Radau, solve_ivp
@@ -74,7 +75,7 @@ def by_solve_ivp(
 ) -> Integrated:
     """``scipy.integrate.solve_ivp``; implicit solvers begin with the same short step as ours."""
     system, counters = assemble(fall.scene), Counters()
-    options = {}
+    options: dict[str, Any] = {}
     if jacobian != NONE:
         options["jac"] = system.jacobian if jacobian == ANALYTIC else None
         options["first_step"] = min(FIRST_STEP * fall.interval, LONGEST_FIRST)

@@ -1,10 +1,9 @@
 """How a cost grows: ``seconds = prefactor · N^exponent``, by least squares in logarithms."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-
-from sedfiber.core.array_types import Array
 
 
 @dataclass(frozen=True)
@@ -16,7 +15,7 @@ class PowerLaw:
     prefactor: float
 
 
-def fit_power_law(beads: Array, seconds: Array) -> PowerLaw:
+def fit_power_law(beads: Sequence[float], seconds: Sequence[float]) -> PowerLaw:
     """Fit ``log seconds = log prefactor + exponent · log N``; three points at least."""
     x, y = np.log(np.asarray(beads, dtype=float)), np.log(np.asarray(seconds, dtype=float))
     off = x - x.mean()

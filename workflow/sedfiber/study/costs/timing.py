@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
@@ -26,8 +27,14 @@ class RunTiming(Timing):
     """Timing of a whole run of ``repeats`` repeats, what it returned, and of a short call ``beside`` it, if any."""
 
     repeats: int
-    returned: object
+    returned: Any
     beside: Timing | None
+
+    @property
+    def units(self) -> float:
+        """The run's least time over that of the short call beside it."""
+        assert self.beside is not None  # callers have given one
+        return self.least / self.beside.least
 
     @property
     def columns(self) -> dict[str, float]:
@@ -64,14 +71,20 @@ def timed_run(run: Callable[[], object], beside: Callable[[], object] | None = N
     first = time.perf_counter() - start
     seconds = [] if first < LONG else [first]
     n = REPEATS if first < LONG else FEW if first <= VERY_LONG else 1
-    turns, bundle = (-(-REPEATS // n), _bundle(beside)) if beside else (0, 0)  # no fewer than ten of the short call
-    short = [_seconds(beside, bundle) for _ in range(turns * len(seconds))]
+    turns = -(-REPEATS // n)  # no fewer than ten of the short call
+    short_call = _repeated(beside, turns) if beside else list
+    short = [time for _ in seconds for time in short_call()]
     while len(seconds) < n:
         seconds.append(_seconds(run, 1))
-        short += [_seconds(beside, bundle) for _ in range(turns)]
-    return RunTiming(
-        **asdict(_timing(seconds)), repeats=n, returned=returned, beside=_timing(short) if beside else None
-    )
+        short += short_call()
+    timing = _timing(seconds)
+    return RunTiming(**asdict(timing), repeats=n, returned=returned, beside=_timing(short) if beside else None)
+
+
+def _repeated(call: Callable[[], object], turns: int) -> Callable[[], list[float]]:
+    """Seconds of a short call, so many times in turn."""
+    bundle = _bundle(call)
+    return lambda: [_seconds(call, bundle) for _ in range(turns)]
 
 
 def _timing(seconds: Sequence[float]) -> Timing:

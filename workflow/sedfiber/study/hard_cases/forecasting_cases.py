@@ -76,7 +76,7 @@ def forecast_single_and_batched(model: Path) -> Iterable[Measurement]:
     """Starts of all kinds alone, in one sweep, and by torchdiffeq, which the model was judged with."""
     forecaster, judged = load_model(model), load_forecast_model(model)
     B_values, shapes = _B_values(forecaster), _far_shapes(forecaster.model.scales.n_beads)
-    asked = [(B, theta0, None) for B, theta0 in _grid(forecaster)]
+    asked: list[tuple[float, float, Array | None]] = [(B, theta0, None) for B, theta0 in _grid(forecaster)]
     asked += [(BELOW[0] * B_values[0], math.pi / 2, None), *((B_values[-1], 0.3, shape) for shape in shapes.values())]
     starts, t = [forecaster.start(*one) for one in asked], _long_times(forecaster)
     alone, length = forecaster.model.forecast_many(starts, t), 2.0 * forecaster.model.scales.n_beads

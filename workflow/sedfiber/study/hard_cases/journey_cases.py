@@ -7,7 +7,7 @@ from math import pi
 import numpy as np
 
 from sedfiber.scene.numerics import Numerics
-from sedfiber.scene.parts import Disturbance
+from sedfiber.scene.parts import Disturbance, Fiber
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.differences import largest_distance
 from sedfiber.simulation.equilibria.plane_stability import out_of_plane, watch
@@ -53,7 +53,7 @@ def fall_of_a_million() -> Iterable[Measurement]:
         yield Measurement(f"B={B:g}: shape after from shape before, L", _change(run.shape), 1e-8)
         expected = state.speed * run.t[-1]
         yield Measurement(f"B={B:g}: fall against speed times time, relative", abs(fall / expected - 1.0), 1e-9)
-        places = (Scene(B, pi / 4, fibers=[{"place": [0.0, y]}]) for y in (0.0, -FALL))
+        places = (Scene(B, pi / 4, fibers=(Fiber(place=(0.0, y)),)) for y in (0.0, -FALL))
         near, far = (simulate(place, Numerics(rtol=1e-11, atol=1e-11), 300.0) for place in places)
         apart = largest_distance(near.shape, far.shape, scene.length)
         yield Measurement(f"B={B:g}: shapes of a fall that starts at y=-1e6 a from one at 0, L", apart, 1e-8)

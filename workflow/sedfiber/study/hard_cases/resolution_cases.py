@@ -45,7 +45,7 @@ def _falls() -> Iterable[Measurement]:
     before = time.perf_counter()
     runs = [simulate(Scene(B, pi / 4, n)) for n in LADDER]
     seconds = time.perf_counter() - before
-    times = np.array([run.settling_time / n for run, n in zip(runs, LADDER, strict=True)])
+    times = np.array([(run.settling_time or np.nan) / n for run, n in zip(runs, LADDER, strict=True)])
     apart = np.abs(times[1:-1] - times[-1])
     listed = ", ".join(f"{n}: {value:.4g}" for n, value in zip(LADDER, times, strict=True))
     yield Measurement(

@@ -6,12 +6,14 @@ from dataclasses import replace
 from functools import partial
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from sedfiber.core.array_types import Positions
 from sedfiber.scene.assembly import assemble
 from sedfiber.scene.numerics import Numerics
+from sedfiber.scene.parts import Contact
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.differences import largest_distance
 from sedfiber.simulation.run import simulate
@@ -60,7 +62,7 @@ def _ring(gap: float) -> Positions:
     return x - x[_RING // 2]
 
 
-def _scene(shape: object, **changes: str) -> Callable[[], Scene]:
+def _scene(shape: object, **changes: Any) -> Callable[[], Scene]:
     return partial(Scene, 1000.0, 0.0, _RING, shape=shape, **changes)
 
 
@@ -68,7 +70,9 @@ def crumpled() -> Iterable[Measurement]:
     """Fifty random walks of 31 beads in volume, with contact and the overlap form: each settles to the U."""
     not_finite, rises, settled = 0, -np.inf, 0
     for seed in SEEDS:
-        scene = Scene(1000.0, 0.0, _CRUMPLED, "volume", "RPY-overlap", contact={}, shape=random_walk(seed, _CRUMPLED))
+        scene = Scene(
+            1000.0, 0.0, _CRUMPLED, "volume", "RPY-overlap", contact=Contact(), shape=random_walk(seed, _CRUMPLED)
+        )
         run = simulate(scene)
         system = assemble(scene)
         energy = np.array([system.energy(x) for x in run.positions])

@@ -5,6 +5,7 @@ from functools import partial
 from math import pi
 
 from sedfiber.scene.numerics import Numerics
+from sedfiber.scene.parts import Contact
 from sedfiber.scene.scene import Scene
 from sedfiber.simulation.checks import ENERGY_BALANCE
 from sedfiber.simulation.differences import largest_distance
@@ -40,7 +41,7 @@ def beyond_the_U() -> Iterable[Measurement]:
     """ℬ = 1e5 and 1e6: no U exists; with contact, without it, and with the mobility that does not stand it."""
     for B in (1e5, 1e6):
         for k in THREE_ANGLES:
-            scene = Scene(B, angle_of(k), hydrodynamics="RPY-overlap", contact={})
+            scene = Scene(B, angle_of(k), hydrodynamics="RPY-overlap", contact=Contact())
             yield from _against(simulate(scene, t_end=WHILE), TIGHT, f"B={B:g}, k={k}, contact and overlap form")
     loose = simulate(Scene(1e6, pi / 4, hydrodynamics="RPY-overlap"), t_end=WHILE)
     missed = any(verdict["effect"] == "contact" and verdict["matters"] for verdict in loose.metadata["audit"])

@@ -1,10 +1,11 @@
 """Trainings that must stop with the name of the trajectory, or recover, and never leave a model full of NaN."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 import torch
@@ -73,7 +74,8 @@ def _one_bad_loss() -> Iterable[Measurement]:
     generator = torch.Generator().manual_seed(0)
     x = torch.randn(64, 8, generator=generator) * torch.logspace(0, -2, 8)
     truth = torch.randn(8, 3, generator=generator)
-    weights, reports = torch.zeros(8, 3, requires_grad=True), []
+    weights = torch.zeros(8, 3, requires_grad=True)
+    reports: list[str] = []
     descent = Descent(soap([weights]), ["one"], "a regression", reports.append)
     for step in range(300):
         errors = ((x @ weights - x @ truth) ** 2).mean(1) * (torch.nan if step == 30 else 1.0)
@@ -106,7 +108,7 @@ def _autoencoder() -> Autoencoder:
     return train_autoencoder(_sound(), "decoder", 2, 0, AUTOENCODER)
 
 
-def _spoilt(**changes: np.ndarray) -> tuple[Dataset, SettlingFall]:
+def _spoilt(**changes: Any) -> tuple[Dataset, SettlingFall]:
     """The data set with one trajectory changed, and that trajectory."""
     all_of_them = list(_sound())
     all_of_them[SPOILT] = replace(all_of_them[SPOILT], **changes)
@@ -115,7 +117,7 @@ def _spoilt(**changes: np.ndarray) -> tuple[Dataset, SettlingFall]:
 
 def _named(training: Dataset, spoilt: SettlingFall) -> Iterable[Measurement]:
     """Every training must refuse the data set in one line that names the spoilt trajectory."""
-    trainings = {
+    trainings: dict[str, Callable[[], object]] = {
         "autoencoder": partial(train_autoencoder, training, "decoder", 2, 0, AUTOENCODER),
         "neural ODE": partial(train_node, training, _autoencoder(), 0, NODE),
         "neural ODE of the source": partial(train_node_source, training, _autoencoder(), 0, SOURCE),
