@@ -1,6 +1,7 @@
 """Running a command as a shell would, and what it says when it must fail."""
 
-from sedfiber.commands.cli import main
+from sedfiber.commands.cli import OneLineParser, main
+from sedfiber.commands.steps._step import add_arguments, call
 
 
 def status_of(argv):
@@ -22,3 +23,10 @@ def complaint(capsys, argv, status=None):
     assert said.err.endswith("\n")
     assert "Traceback" not in said.err
     return said.err
+
+
+def run_step(step, *words):
+    """Run a step of the workflow, its module, as the command does; its errors are raised."""
+    parser = OneLineParser()
+    add_arguments(step.run, parser)
+    call(step.run, parser.parse_args([str(word) for word in words]))

@@ -1,9 +1,8 @@
 """Making an explorer, and asking one that a browser has open for its forecasts."""
 
-import argparse
-
 import numpy as np
 
+from command_line import run_step
 from sedfiber.commands.steps import make_explorer
 
 CLOSE = 1e-5  # of L; the page promises 1e-4
@@ -11,10 +10,7 @@ CLOSE = 1e-5  # of L; the page promises 1e-4
 
 def make(model, *datasets, output) -> None:
     """What the command does."""
-    parser = argparse.ArgumentParser()
-    make_explorer.add_arguments(parser)
-    words = ["--model", model, "--dataset", *datasets, "-o", output]
-    make_explorer.run(parser.parse_args([str(word) for word in words]))
+    run_step(make_explorer, "--model", model, "--dataset", *datasets, "-o", output)
 
 
 def forecast(page, B: float, theta0: float, t: np.ndarray) -> np.ndarray:

@@ -145,6 +145,7 @@ rule measure_choices:
         settings=as_json(
             {
                 "models": ASKED_MODELS,
+                "judged_by_torch": FORECAST_MODEL,
                 "data_benchmarks": benchmarks_of("simulate", trajectories("train")),
                 "tried": config["cost"]["choices"],
             }

@@ -35,11 +35,9 @@ rule tabulate_trajectories:
         mem_mb=2000,
     params:
         code=code_of("tabulate_trajectories"),
-        splits=lambda wildcards, input: " ".join(
-            f"--split {split} {' '.join(input[split])}" for split in STUDY.splits
-        ),
+        settings=as_json({"splits": {split: trajectories(split) for split in STUDY.splits}}),
     shell:
-        "sedfiber tabulate_trajectories {params.splits} -o {output} > {log} 2>&1"
+        "sedfiber tabulate_trajectories --settings {params.settings:q} -o {output} > {log} 2>&1"
 
 
 rule tabulate_audit:

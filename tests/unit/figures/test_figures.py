@@ -7,8 +7,8 @@ import matplotlib
 import pandas as pd
 import pytest
 
+from command_line import run_step
 from figure_command import draw_words
-from sedfiber.commands.cli import OneLineParser
 from sedfiber.commands.steps import draw
 from sedfiber.core.errors import InputError
 
@@ -72,9 +72,7 @@ def plot(figure: str, data: pd.DataFrame, folder: Path, options: dict | None = N
     data.to_csv(folder / "table.csv", index=False)
     given = FIGURES[figure][1] if options is None else options
     words = draw_words(figure, folder, {"table": folder / "table.csv"}, given)
-    parser = OneLineParser()
-    draw.add_arguments(parser)
-    draw.run(parser.parse_args(words[1:]))
+    run_step(draw, *words[1:])
     return (folder / "x.svg").read_bytes(), (folder / "x.png").read_bytes()
 
 

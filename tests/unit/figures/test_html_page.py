@@ -1,11 +1,11 @@
 """A table as a page: every row and column there, nothing from outside, foreign text harmless."""
 
-import argparse
 from html.parser import HTMLParser
 
 import pandas as pd
 import pytest
 
+from command_line import run_step
 from sedfiber.commands.steps import show_manifest, show_table
 from sedfiber.core.errors import InputError
 from sedfiber.figures.html_page import table_page
@@ -58,16 +58,10 @@ def test_a_long_table_says_what_is_left_out():
     assert len(Cells(page).rows) == 2
 
 
-def run(command, *words) -> None:
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
-    command.run(parser.parse_args([str(word) for word in words]))
-
-
 def test_show_table_names_the_file_with_all_digits(tmp_path):
     """The page is a view; the CSV file is the result."""
     TABLE.to_csv(tmp_path / "some_table.csv", index=False)
-    run(show_table, tmp_path / "some_table.csv", "-o", tmp_path / "page.html")
+    run_step(show_table, tmp_path / "some_table.csv", "-o", tmp_path / "page.html")
     page = (tmp_path / "page.html").read_text()
     assert "<title>some table</title>" in page and f"{tmp_path}/some_table.csv" in page
 
@@ -76,5 +70,5 @@ def test_show_manifest_refuses_what_is_none(tmp_path):
     """One line that names the file."""
     (tmp_path / "manifest.json").write_text("not JSON")
     with pytest.raises(InputError, match="cannot read the manifest"):
-        run(show_manifest, tmp_path / "manifest.json", "-o", tmp_path / "page.html")
+        run_step(show_manifest, tmp_path / "manifest.json", "-o", tmp_path / "page.html")
     assert not (tmp_path / "page.html").exists()

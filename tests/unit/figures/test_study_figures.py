@@ -7,9 +7,10 @@ import pandas as pd
 import pytest
 from matplotlib.colors import to_rgba
 
+from command_line import run_step
 from figure_command import draw_words
 from sedfiber import Scene, read_trajectory, simulate, write_trajectory
-from sedfiber.commands.cli import OneLineParser, main
+from sedfiber.commands.cli import main
 from sedfiber.commands.steps import draw
 from sedfiber.core.errors import InputError
 from sedfiber.figures.centre_paths import draw_centre_paths
@@ -46,7 +47,13 @@ def study(tmp_path_factory):
     call("aggregate_dataset", *files, "--settings", '{"split": "train"}', "-o", data)
     call("solve_terminal_shapes", "--settings", json.dumps({"n_beads": N, "B": B_VALUES}), "-o", shapes)
     call("tabulate_regimes", data, shapes, "-o", folder / "regimes.csv")
-    call("tabulate_trajectories", "--split", "train", *files, "-o", folder / "trajectories.csv")
+    call(
+        "tabulate_trajectories",
+        "--settings",
+        json.dumps({"splits": {"train": files}}),
+        "-o",
+        folder / "trajectories.csv",
+    )
     return folder
 
 
@@ -64,9 +71,7 @@ def plot(figure, study, out, settings=None):
     """Draw files of the study; returns the bytes of the SVG and the PNG."""
     inputs, options = settings or FIGURES[figure]
     words = draw_words(figure, out, {name: study / file for name, file in inputs.items()}, options)
-    parser = OneLineParser()
-    draw.add_arguments(parser)
-    draw.run(parser.parse_args(words[1:]))
+    run_step(draw, *words[1:])
     return (out / "x.svg").read_bytes(), (out / "x.png").read_bytes()
 
 

@@ -1,10 +1,9 @@
 """A fresh run against the published one: equal where it must be, within a factor where trainings differ."""
 
-import argparse
-
 import pandas as pd
 import pytest
 
+from command_line import run_step
 from sedfiber.commands.steps import compare_published
 from sedfiber.core.errors import InputError, NumericalError
 from sedfiber.study.published_comparison import COMPARED, compare
@@ -78,10 +77,8 @@ def run(folder, **changed) -> None:
         (folder / name).mkdir()
         for table, rows in tables.items():
             rows.to_csv(folder / name / f"{table}.csv", index=False)
-    parser = argparse.ArgumentParser()
-    compare_published.add_arguments(parser)
     words = ["--published", folder / "published", "--fresh", folder / "fresh", "-o", folder / "comparison.csv"]
-    compare_published.run(parser.parse_args([str(word) for word in words]))
+    run_step(compare_published, *words)
 
 
 def test_the_command_writes_a_row_for_every_comparison(tmp_path):

@@ -7,10 +7,13 @@ import sys
 import textwrap
 import warnings
 from importlib import import_module
+from pkgutil import iter_modules
 from types import ModuleType
 from typing import NoReturn
 
 import sedfiber
+from sedfiber.commands import steps
+from sedfiber.commands.steps._step import add_arguments, call
 from sedfiber.core.errors import SedfiberError
 
 # what a user calls
@@ -23,50 +26,9 @@ TOOLS = {
     "compare": "E(t) of one trajectory against another",
     "advise": "which method or model reaches an accuracy, and what it takes on this machine",
 }
-# what the rules of the workflow call
-STEPS = {
-    "solve_terminal_shapes": "steady shapes of several elasto-gravitational numbers in one table",
-    "solve_terminal_curve": "terminal shapes of a whole range of elasto-gravitational numbers as one series",
-    "aggregate_dataset": "the trajectories of one split as one data set",
-    "tabulate_trajectories": "settling time, cost and checks of every run",
-    "check_simulation": "one run again with another method and tighter tolerance",
-    "tabulate_checks": "the largest difference of every run from its check",
-    "tabulate_audit": "what each run left out, and whether it mattered",
-    "compare_third_dimension": "out-of-plane growth at each ℬ, predicted and run; where it turns",
-    "trace_states": "steady states against ℬ, their growth rates, and where they gain or lose stability",
-    "measure_effects": "cost and influence of every effect on the study's scene",
-    "benchmark_parts": "the study's scene against one kernel written for it alone",
-    "train_autoencoder": "one autoencoder of one variant and latent dimension",
-    "tabulate_reconstruction": "reconstruction loss of every autoencoder, and of POD",
-    "train_node": "the neural ODE on a trained autoencoder, together a forecast model",
-    "forecast_test_set": "forecast every trajectory of a split from its first sample",
-    "forecast_by_lookup": "the baseline without a model: splines through the training runs",
-    "tabulate_forecast_errors": "E(t) of all forecasts of both test sets",
-    "tabulate_timings": "time of every stage, summed from the benchmark files",
-    "write_manifest": "provenance: configuration, versions and a checksum of every output",
-    "measure_hard_case": "run one hard case and say what it was measured by",
-    "tabulate_hard_cases": "all hard cases in one table, the failing ones among them",
-    "measure_integrators": "error and time of every integrator over one fall of the study",
-    "measure_trajectories": "error and time of many falls of the study with the default integrator",
-    "measure_discretisation": "what beads and hydrodynamics cost and change over one fall of the study",
-    "measure_models": "training time, size, error and speed of every variant and latent dimension",
-    "measure_choices": "error and time of simulations, forecasts, lookup and POD-Galerkin on the test trajectories",
-    "measure_model_growth": "simulation against forecast at another number of beads",
-    "tabulate_costs": "the same measurement of several cases as one table",
-    "draw": "one figure, from files alone",
-    "tabulate_regimes": "how each fall turns and bends, and which regime that is",
-    "tabulate_lags": "by how much time each forecast is late, and what error is left without that",
-    "tabulate_key_numbers": "this run, the source's claim and the bar, number by number",
-    "show_table": "a CSV table as an HTML page, for the report",
-    "show_manifest": "where the results come from, as an HTML page, for the report",
-    "make_explorer": "the trained model as one HTML page that forecasts in the browser, offline",
-    "publish_results": "copy tables, figures and manifest of a full run to where the repository shows them",
-    "ship_model": "copy the forecast model of a full run into the package, with a card that says what it is worth",
-    "compare_published": "a fresh run's numbers against the published ones, within stated tolerances",
-    "film_forecast": "film: a test trajectory, true and forecast, with E(t) running below",
-    "film_scene": "film: a scene's run",
-}
-COMMANDS = TOOLS | STEPS
+# what the rules of the workflow call: each module is one, described by its first line
+STEPS = sorted(one.name for one in iter_modules(steps.__path__) if not one.name.startswith("_"))
+COMMANDS = [*TOOLS, *STEPS]
 # what comes with the extra `train` of the package
 TRAINING = ("torch", "torchdiffeq", "pytorch_optimizer")
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -96,7 +58,8 @@ def main(argv: list[str] | None = None) -> int:
     warnings.filterwarnings("ignore", category=UserWarning, module="scipy.integrate")  # they become our errors
     try:
         args = _parser(command, argv).parse_args(argv)
-        _module(args.command).run(args)
+        run = _module(args.command).run
+        run(args) if args.command in TOOLS else call(run, args)
     except SedfiberError as error:
         return _failed(command, str(error))
     except ModuleNotFoundError as error:
@@ -140,11 +103,22 @@ def _parser(command: str | None, argv: list[str]) -> OneLineParser:
         help=argparse.SUPPRESS,
         parser_class=OneLineParser,
     )
-    for name, summary in COMMANDS.items():
-        sub = verbs.add_parser(name, description=summary)  # without help: the description above lists them
+    for name in COMMANDS:
+        sub = verbs.add_parser(name)  # without help: the description above lists them
         if name == command:
-            _module(name).add_arguments(sub)
+            _describe(name, sub)
     return parser
+
+
+def _describe(command: str, parser: argparse.ArgumentParser) -> None:
+    """Options and summary of one command."""
+    module = _module(command)
+    if command in TOOLS:
+        parser.description = TOOLS[command]
+        module.add_arguments(parser)
+    else:
+        parser.description = str(module.__doc__).splitlines()[0].partition(": ")[2]
+        add_arguments(module.run, parser)
 
 
 def _failed(command: str | None, words: str) -> int:
@@ -156,6 +130,6 @@ def _listed() -> str:
     """All commands, those that a user calls first."""
     width = max(map(len, TOOLS)) + 2
     tools = [f"  {name:<{width}}{summary}" for name, summary in TOOLS.items()]
-    steps = textwrap.wrap(", ".join(STEPS), 100, initial_indent="  ", subsequent_indent="  ")
+    of_workflow = textwrap.wrap(", ".join(STEPS), 100, initial_indent="  ", subsequent_indent="  ")
     words = "Flexible fibers that sink in a viscous fluid. `sedfiber COMMAND --help` lists a command's options."
-    return "\n".join([words, "", "commands:", *tools, "", "steps of the workflow, called by its rules:", *steps])
+    return "\n".join([words, "", "commands:", *tools, "", "steps of the workflow, called by its rules:", *of_workflow])

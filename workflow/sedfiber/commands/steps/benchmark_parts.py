@@ -1,13 +1,11 @@
 """``sedfiber benchmark_parts``: the study's scene made of parts, against one kernel written for it alone."""
 
-import argparse
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from sedfiber.core.atomic_file import require_writable
+from sedfiber.commands.steps._step import Output
 from sedfiber.core.csv_file import write_csv
 from sedfiber.core.errors import NumericalError
 from sedfiber.physics.system import System
@@ -21,17 +19,11 @@ BARS = {31: 2.0, 201: 1.3}  # what parts may cost over the single kernel
 REPEATS = 50
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The table to write."""
-    parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write")
-
-
-def run(args: argparse.Namespace) -> None:
+def run(*, output: Output) -> None:
     """Time right-hand side and Jacobian at each bead count, print and write the ratios."""
-    require_writable(args.output)
     table = pd.DataFrame([row for n in BEADS for row in _rows(n)])
     print(table.to_string(index=False))
-    write_csv(table, args.output)
+    write_csv(table, output)
 
 
 def _rows(n_beads: int) -> list[dict]:

@@ -1,28 +1,19 @@
 """``sedfiber compare_published``: a fresh run's numbers against the published ones, within stated tolerances."""
 
-import argparse
 from pathlib import Path
 
 import pandas as pd
 
-from sedfiber.core.atomic_file import require_writable
+from sedfiber.commands.steps._step import Output
 from sedfiber.core.csv_file import read_csv, write_csv
 from sedfiber.core.errors import NumericalError
 from sedfiber.study.published_comparison import COMPARED, compare
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Two folders of tables."""
-    parser.add_argument("--published", type=Path, required=True, help="folder of the published tables")
-    parser.add_argument("--fresh", type=Path, required=True, help="folder of the tables of a full run")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write")
-
-
-def run(args: argparse.Namespace) -> None:
-    """Print and write one row a comparison; fail, with the first that is outside, when one is."""
-    require_writable(args.output)
+def run(*, published: Path, fresh: Path, output: Output) -> None:
+    """Print and write one row a comparison of two folders of tables; fail, with the first that is outside."""
     names = dict.fromkeys(one.table for one in COMPARED)
-    pairs = {name: [read_csv(folder / f"{name}.csv") for folder in (args.published, args.fresh)] for name in names}
+    pairs = {name: [read_csv(folder / f"{name}.csv") for folder in (published, fresh)] for name in names}
     table = pd.concat([compare(name, *pair) for name, pair in pairs.items()], ignore_index=True)
     print(table.to_string(index=False))
     outside = table[~table["within"]]
@@ -33,4 +24,4 @@ def run(args: argparse.Namespace) -> None:
             f"{first['largest_factor']:.3g}, allowed is {first['allowed_factor']:.6g}; the code's results have "
             "changed: make publish, if that is meant"
         )
-    write_csv(table, args.output)
+    write_csv(table, output)

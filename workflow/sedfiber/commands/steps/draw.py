@@ -1,13 +1,12 @@
 """``sedfiber draw``: one figure, from files alone.
 
+from sedfiber.commands.steps._step import Output, Word
 Each module of ``sedfiber.figures`` with a function ``draw`` is a figure. The command imports it by name when it runs,
 so that an edited figure redraws no other.
 """
 
-import argparse
 import inspect
-import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -15,27 +14,17 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from sedfiber.core.atomic_file import require_writable
+from sedfiber.commands.steps._step import Output, Word
 from sedfiber.core.csv_file import read_csv
 from sedfiber.core.errors import InputError
 from sedfiber.figures.style import save_figure
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The figure, what it reads and how, the two files to write."""
-    parser.add_argument("figure", help="module of sedfiber.figures that draws it")
-    parser.add_argument("--settings", required=True, help="JSON object of its inputs and options, each by name")
-    parser.add_argument("--svg", type=Path, required=True, help="SVG file to write")
-    parser.add_argument("--png", type=Path, required=True, help="PNG file to write")
-
-
-def run(args: argparse.Namespace) -> None:
-    """Refuse unusable outputs and settings, then read, draw and write both files."""
-    for path in (args.svg, args.png):
-        require_writable(path)
-    draw = _drawing(args.figure)
-    given = _given(draw, args.settings)
-    save_figure(lambda: draw(**given), args.svg, args.png)
+def run(figure: Word, *, svg: Output, png: Output, inputs: Mapping, options: Mapping) -> None:
+    """Read the inputs, draw with the options, each by name, and write both files."""
+    draw = _drawing(figure)
+    given = _given(draw, inputs, options)
+    save_figure(lambda: draw(**given), svg, png)
 
 
 def _drawing(figure: str) -> Callable[..., Figure]:
@@ -47,17 +36,15 @@ def _drawing(figure: str) -> Callable[..., Figure]:
     return draw
 
 
-def _given(draw: Callable[..., Figure], text: str) -> dict[str, Any]:
+def _given(draw: Callable[..., Figure], inputs: Mapping, options: Mapping) -> dict[str, Any]:
     """The inputs by name, as paths where the function takes a path, then the options as they are."""
+    signature = inspect.signature(draw)
     try:
-        settings = json.loads(text)
-        inputs, options = settings["inputs"], settings["options"]
-        signature = inspect.signature(draw)
         signature.bind(**inputs, **options)
-    except (ValueError, KeyError, TypeError) as error:
+    except TypeError as error:
         raise InputError(f"settings: {error}") from None
     paths = [name for name, one in signature.parameters.items() if one.annotation is Path]
-    return {name: Path(files) if name in paths else _input(files) for name, files in inputs.items()} | options
+    return {name: Path(files) if name in paths else _input(files) for name, files in inputs.items()} | dict(options)
 
 
 def _input(files: str | list[str]) -> Any:

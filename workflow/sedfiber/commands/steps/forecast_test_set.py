@@ -1,14 +1,12 @@
 """``sedfiber forecast_test_set``: forecast every trajectory of a split from its first sample."""
 
-import argparse
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import torch
 
-from sedfiber.commands.steps._data import add_split
-from sedfiber.core.atomic_file import require_writable
+from sedfiber.commands.steps._step import Output, Split
 from sedfiber.reduced.dataset import Dataset, SettlingFall, read_dataset
 from sedfiber.reduced.dataset_file import write_dataset
 from sedfiber.reduced.forecast_start import Start
@@ -16,19 +14,10 @@ from sedfiber.reduced.model_files import load_forecast_model
 from sedfiber.reduced.torch_forecast import ForecastModel
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The model, the true trajectories and their steady shapes."""
-    add_split(parser, "truth", "the split to forecast")
-    parser.add_argument("--model", type=Path, required=True, help="folder of a forecast model")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="Parquet file to write")
-
-
-def run(args: argparse.Namespace) -> None:
+def run(truth: Split, *, model: Path, output: Output) -> None:
     """Forecast at the samples of the true trajectories; same layout as the data set."""
     torch.set_num_threads(1)
-    require_writable(args.output)
-    truth = read_dataset(*args.truth)
-    write_dataset(forecast_all(load_forecast_model(args.model), truth), args.output)
+    write_dataset(forecast_all(load_forecast_model(model), read_dataset(*truth)), output)
 
 
 def forecast_all(model: ForecastModel, truth: Dataset) -> list[SettlingFall]:

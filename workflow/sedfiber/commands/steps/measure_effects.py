@@ -1,11 +1,8 @@
 """``sedfiber measure_effects``: cost and influence of every effect on the study's scene."""
 
-import argparse
-
 import pandas as pd
 
-from sedfiber.commands.steps._settings import add_settings_and_output, made_from
-from sedfiber.core.atomic_file import require_writable
+from sedfiber.commands.steps._step import Output
 from sedfiber.core.csv_file import write_csv
 from sedfiber.scene.scene import Scene
 from sedfiber.study.angles import angle_of
@@ -14,15 +11,16 @@ from sedfiber.study.effects_table import effect_rows
 RATIOS = {"rhs_ratio": "rhs_us", "jacobian_ratio": "jacobian_us", "run_ratio": "run_s"}
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The scene that is changed, and the table to write."""
-    add_settings_and_output(parser, "CSV file to write")
-
-
-def run(args: argparse.Namespace) -> None:
-    """Measure one change after the other; ratios are to the first row, the scene as it is."""
-    require_writable(args.output)
-    scene = made_from(args.settings, _scene)
+def run(
+    *,
+    output: Output,
+    B: float,
+    angle_index: int,
+    n_beads: int = Scene.n_beads,
+    hydrodynamics: str = Scene.hydrodynamics,
+) -> None:
+    """Measure one change of the scene after the other; ratios are to the first row, the scene as it is."""
+    scene = Scene(B, angle_of(angle_index), n_beads, hydrodynamics=hydrodynamics)
     rows = []
     for row in effect_rows(scene):
         rows.append(row)
@@ -30,8 +28,4 @@ def run(args: argparse.Namespace) -> None:
     table = pd.DataFrame(rows)
     for ratio, column in RATIOS.items():
         table.insert(table.columns.get_loc(column) + 1, ratio, table[column] / table[column].iloc[0])
-    write_csv(table, args.output)
-
-
-def _scene(B: float, angle_index: int, n_beads: int = Scene.n_beads, hydrodynamics: str = Scene.hydrodynamics) -> Scene:
-    return Scene(B, angle_of(angle_index), n_beads, hydrodynamics=hydrodynamics)
+    write_csv(table, output)

@@ -1,28 +1,21 @@
 """``sedfiber show_manifest``: where the results come from, as an HTML page, for the report."""
 
-import argparse
 import json
 from pathlib import Path
 
 import pandas as pd
 
-from sedfiber.core.atomic_file import require_writable, write_text
+from sedfiber.commands.steps._step import Output
+from sedfiber.core.atomic_file import write_text
 from sedfiber.core.errors import InputError
 from sedfiber.figures.html_page import table_page
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """The manifest and the page."""
-    parser.add_argument("manifest", type=Path, help="what sedfiber write_manifest wrote")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="HTML file to write")
-
-
-def run(args: argparse.Namespace) -> None:
+def run(manifest: Path, *, output: Output) -> None:
     """Commit, machine, versions, and the checksum of every result, one row each."""
-    require_writable(args.output)
-    rows = pd.DataFrame(_rows(_read(args.manifest)), columns=["of", "what", "value"])
-    note = f"The whole configuration and the rule graph are in {args.manifest}."
-    write_text(args.output, table_page(rows, "provenance", note, len(rows)))
+    rows = pd.DataFrame(_rows(_read(manifest)), columns=["of", "what", "value"])
+    note = f"The whole configuration and the rule graph are in {manifest}."
+    write_text(output, table_page(rows, "provenance", note, len(rows)))
 
 
 def _read(path: Path) -> dict:

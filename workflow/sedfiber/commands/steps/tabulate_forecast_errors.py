@@ -1,13 +1,15 @@
 """``sedfiber tabulate_forecast_errors``: E(t) of all forecasts of both test sets, as tables."""
 
-import argparse
+from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
 
-from sedfiber.commands.steps._forecasters import add_forecaster_arguments, read_forecasts
+from sedfiber.commands.steps._forecasters import read_forecasts
+from sedfiber.commands.steps._step import Splits
 from sedfiber.core.atomic_file import require_writable
 from sedfiber.core.csv_file import write_csv
+from sedfiber.core.errors import InputError
 from sedfiber.reduced.dataset import Dataset
 from sedfiber.study.error_tables import (
     ModelLabel,
@@ -21,21 +23,16 @@ OUTPUTS = ("forecast_errors", "source_errors", "lookup_errors", "ensemble_errors
 _ERRORS_OF = {"rollout": "forecast_errors", "source": "source_errors", "lookup": "lookup_errors"}
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """True splits, forecasts of each by each forecaster, and one file per table."""
-    add_forecaster_arguments(parser)
-    files = ", ".join(OUTPUTS)
-    parser.add_argument("-o", "--output", nargs=len(OUTPUTS), type=Path, required=True, help=f"CSV files of {files}")
-
-
-def run(args: argparse.Namespace) -> None:
+def run(*, truth: Splits, forecasts: list[Path], output: list[Path], forecasters: Sequence[Sequence]) -> None:
     """Measure every forecaster on every split and write the tables."""
-    for path in args.output:
+    if len(output) != len(OUTPUTS):
+        raise InputError(f"output: {len(output)} files are not allowed; give {', '.join(OUTPUTS)}")
+    for path in output:
         require_writable(path)
     tables: dict[str, list[pd.DataFrame]] = {name: [] for name in OUTPUTS}
-    for who, truth, forecast in read_forecasts(args):
-        _add(tables, who, truth, forecast)
-    for parts, path in zip(tables.values(), args.output, strict=True):
+    for who, true, forecast in read_forecasts(truth, forecasts, forecasters):
+        _add(tables, who, true, forecast)
+    for parts, path in zip(tables.values(), output, strict=True):
         table = pd.concat(parts, ignore_index=True).astype({"latent_dim": "Int64"})  # the lookup has none
         write_csv(table, path)
 

@@ -1,27 +1,22 @@
 """``sedfiber tabulate_timings``: time of every stage, summed from the benchmark files."""
 
-import argparse
 from pathlib import Path
 
 import pandas as pd
 
-from sedfiber.core.atomic_file import require_writable
+from sedfiber.commands.steps._step import Output
 from sedfiber.core.csv_file import write_csv
 from sedfiber.core.errors import InputError
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Benchmark files of all jobs."""
-    parser.add_argument("benchmarks", nargs="+", type=Path, help="Snakemake benchmark files, RULE.tsv or RULE/*.tsv")
-    parser.add_argument("-o", "--output", type=Path, required=True, help="CSV file to write")
+def run(benchmarks: list[Path], *, output: Output) -> None:
+    """One row per rule, then the sum, then what a user waited from the first start to the last end.
 
-
-def run(args: argparse.Namespace) -> None:
-    """One row per rule, then the sum, then what a user waited from the first start to the last end."""
-    require_writable(args.output)
-    jobs = pd.DataFrame([_job(path) for path in args.benchmarks])
+    Snakemake's benchmark files are RULE.tsv or RULE/*.tsv.
+    """
+    jobs = pd.DataFrame([_job(path) for path in benchmarks])
     stages = [_stage(rule, group) for rule, group in jobs.groupby("rule", sort=False)]
-    write_csv(pd.DataFrame([*stages, _stage("all", jobs), _elapsed(jobs)]), args.output)
+    write_csv(pd.DataFrame([*stages, _stage("all", jobs), _elapsed(jobs)]), output)
 
 
 def _job(path: Path) -> dict:

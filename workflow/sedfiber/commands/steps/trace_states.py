@@ -1,13 +1,9 @@
 """``sedfiber trace_states``: all steady states against ℬ, their growth rates, and where they gain or lose stability."""
 
-import argparse
-from pathlib import Path
-
 import numpy as np
 import pandas as pd
 
-from sedfiber.commands.steps._settings import add_settings_and_output, made_from
-from sedfiber.core.atomic_file import require_writable
+from sedfiber.commands.steps._step import Output
 from sedfiber.core.csv_file import write_csv
 from sedfiber.core.errors import InputError
 from sedfiber.core.validation import positive_number, whole_number
@@ -22,31 +18,26 @@ from sedfiber.simulation.equilibria.states import (
 )
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Which ℬ, which fiber, and the two tables to write."""
-    parser.add_argument("--thresholds", type=Path, required=True, help="CSV file for the thresholds")
-    add_settings_and_output(parser, "CSV file to write, a row for each state")
-
-
-def run(args: argparse.Namespace) -> None:
-    """Trace, measure, print the thresholds and how well the measured rates agree."""
-    for path in (args.output, args.thresholds):
-        require_writable(path)
-    scene, grid = made_from(args.settings, _asked)
-    ends = grid[0], grid[-1]
+def run(
+    *,
+    thresholds: Output,
+    output: Output,
+    B_min: float,
+    B_max: float,
+    per_decade: int,
+    n_beads: int,
+    hydrodynamics: str,
+) -> None:
+    """Trace, measure, print the thresholds and how well the measured rates agree; a row for each state."""
+    grid = _grid(B_min, B_max, per_decade)
+    scene, ends = Scene(grid[0], 0.0, n_beads, hydrodynamics=hydrodynamics), (grid[0], grid[-1])
     sections, remark = trace_sections(scene, *ends)
     branches: list[Section | Vertical] = [*sections, Vertical(scene, grid)]
     rows = [row for branch in branches for row in state_rows(branch, grid, *ends)]
-    thresholds = pd.DataFrame(threshold_rows(branches, *ends), columns=THRESHOLD_COLUMNS)
-    _report(thresholds, remark, *disagreement(rows))
-    write_csv(pd.DataFrame(rows), args.output)
-    write_csv(thresholds, args.thresholds)
-
-
-def _asked(B_min: float, B_max: float, per_decade: int, n_beads: int, hydrodynamics: str) -> tuple[Scene, list[float]]:
-    """The scene at the least ℬ, and the values of ℬ."""
-    grid = _grid(B_min, B_max, per_decade)
-    return Scene(grid[0], 0.0, n_beads, hydrodynamics=hydrodynamics), grid
+    changes = pd.DataFrame(threshold_rows(branches, *ends), columns=THRESHOLD_COLUMNS)
+    _report(changes, remark, *disagreement(rows))
+    write_csv(pd.DataFrame(rows), output)
+    write_csv(changes, thresholds)
 
 
 def _grid(B_min: float, B_max: float, per_decade: int) -> list[float]:

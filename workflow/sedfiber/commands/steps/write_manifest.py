@@ -1,46 +1,35 @@
 """``sedfiber write_manifest``: provenance: configuration, versions and a checksum of every output."""
 
-import argparse
 import json
 import platform
 import re
+import sys
 from collections.abc import Mapping
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from sedfiber.commands.steps._settings import add_settings_and_output, made_from
-from sedfiber.core.atomic_file import require_writable, write_text
+from sedfiber.commands.steps._step import Output
+from sedfiber.core.atomic_file import write_text
 from sedfiber.core.checksum import sha256
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Everything the manifest records."""
-    parser.add_argument("--lock", type=Path, required=True, help="lock file")
-    parser.add_argument(
-        "--rule-graph", type=argparse.FileType(), required=True, help="what snakemake --rulegraph dot printed, or -"
-    )
-    parser.add_argument("--outputs", nargs="+", type=Path, required=True, help="files to checksum")
-    add_settings_and_output(parser, "JSON file to write")
+def run(*, lock: Path, rule_graph: Path, outputs: list[Path], output: Output, commit: str, config: Mapping) -> None:
+    """Checksum the outputs and write one JSON file.
 
-
-def run(args: argparse.Namespace) -> None:
-    """Checksum the outputs and write one JSON file."""
-    require_writable(args.output)
+    ``rule_graph`` is what ``snakemake --rulegraph dot`` printed, - for standard input; ``commit`` is the code's, as
+    git describes it.
+    """
     manifest = {
-        **made_from(args.settings, _facts),
-        "lock_file": {"name": args.lock.name, "sha256": sha256(args.lock)},
+        "commit": commit,
+        "config": config,
+        "lock_file": {"name": lock.name, "sha256": sha256(lock)},
         "machine": {"platform": platform.platform(), "processor": _processor()},
-        "packages": _versions(args.lock),
+        "packages": _versions(lock),
         "python": platform.python_version(),
-        "rule_graph": _edges(args.rule_graph.read()),
-        "sha256": {str(path): sha256(path) for path in sorted(args.outputs)},
+        "rule_graph": _edges(sys.stdin.read() if str(rule_graph) == "-" else rule_graph.read_text(encoding="utf-8")),
+        "sha256": {str(path): sha256(path) for path in sorted(outputs)},
     }
-    write_text(args.output, json.dumps(manifest, indent=2, sort_keys=True, ensure_ascii=False) + "\n")
-
-
-def _facts(commit: str, config: Mapping) -> dict:
-    """The commit of the code, as git describes it, and the whole configuration."""
-    return {"commit": commit, "config": config}
+    write_text(output, json.dumps(manifest, indent=2, sort_keys=True, ensure_ascii=False) + "\n")
 
 
 def _edges(dot: str) -> list[str]:
