@@ -146,7 +146,7 @@ def test_a_jacobian_that_is_not_finite_is_refused(integrator):
 
 
 def test_dopri5_gives_up_on_a_stiff_fiber_and_says_so():
-    """The source's integrator at ℬ = 100 with samples 5 apart: more than its 1000 steps in one call."""
+    """The paper's integrator at ℬ = 100 with samples 5 apart: more than its 1000 steps in one call."""
     with pytest.raises(NumericalError, match=r"dopri5: .*stiff.*implicit"):
         simulate(Scene(100, 0.5), Numerics("dopri5", interval=5.0), t_end=20.0)
 

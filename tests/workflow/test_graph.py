@@ -177,7 +177,7 @@ def test_the_style_of_figures_redraws_all_of_them(rerun):
 
 
 def test_the_neural_odes_learning_rate_reruns_them_and_what_follows(rerun):
-    """Only those of our recipe: the source's has settings of its own."""
+    """Only those of our recipe: the paper's has settings of its own."""
     rerun.edit("config.yaml", "matching_iterations: 60", "matching_iterations: 61")
     planned = rerun.planned()
     assert planned["train_node"] == 1

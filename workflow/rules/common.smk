@@ -151,7 +151,7 @@ def benchmarks_of(rule, results):
 
 
 def asked_models():
-    """The study's forecast models, with the benchmark files of their trainings; the source's recipe is judged elsewhere."""
+    """The study's forecast models, with the benchmark files of their trainings; the paper's recipe is judged elsewhere."""
     return [
         {
             "name": name,
@@ -193,7 +193,7 @@ def short_model(variant, dim, seed):
 
 
 # Jobs that measure time take all cores, so that nothing runs beside them. Snakemake cuts it down to
-# what there is; workflow.cores would do, but is unknown where only the graph is asked for.
+# what there is; workflow.cores would do, but is unknown where Snakemake makes only the graph.
 EVERY_CORE = 1024
 SCENES = read_or_exit(scene_names, BASE / "scenes")
 TEST_SETS = ("A", "B")

@@ -57,7 +57,7 @@ def pairs(latent_dim=4):
 
 
 def lags():
-    """The forecasts of ours are early, those of the source's recipe late."""
+    """The forecasts of ours are early, those of the paper's recipe late."""
     rows = [
         (model, recipe, 4, one.split, one.B, one.angle_index, lag, 1e-5, 1e-6)
         for model, recipe, lag in (("ours", "rollout", -0.1), ("theirs", "source", 3.0))
@@ -192,11 +192,11 @@ def test_the_contact_sheet_has_a_cell_for_every_trajectory():
 
 
 def test_the_lags_shown_are_those_of_the_model_and_of_the_source():
-    """Ours at -0.1, the source's at 3; a tenth of every error is left, on the dashed line."""
+    """Ours at -0.1, the paper's at 3; a tenth of every error is left, on the dashed line."""
     figure = draw_lags(lags(), "ours")
     points = {line.get_label(): line for line in figure.axes[0].lines if len(line.get_xdata())}
     np.testing.assert_allclose(points["this study, d = 4"].get_ydata(), -0.1)
-    np.testing.assert_allclose(points["source's recipe, d = 4"].get_ydata(), 3.0)
+    np.testing.assert_allclose(points["paper's recipe, d = 4"].get_ydata(), 3.0)
     np.testing.assert_allclose(figure.axes[2].lines[0].get_ydata(), 1e-6)
 
 

@@ -88,7 +88,7 @@ def test_no_trajectories_at_all_are_refused():
     ],
 )
 def test_a_training_that_blows_up_stops_with_a_trajectory(training, autoencoder, train, wild):
-    """Rollouts, matching and the source's recipe, each with a learning rate far too high."""
+    """Rollouts, matching and the paper's recipe, each with a learning rate far too high."""
     said = []
     with pytest.raises(NumericalError, match=r"in the trajectory with B = .*, angle_index = .*try a smaller") as error:
         train(training, autoencoder, 0, wild, said.append)

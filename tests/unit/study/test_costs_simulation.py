@@ -58,7 +58,7 @@ def short_fall(n_beads=FEW_BEADS, samples=21):
     return FallProblem(Scene(SOFT, angle_of(ANGLE), n_beads), samples)
 
 
-# the source's set-up
+# the paper's set-up
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -1,4 +1,4 @@
-"""The key numbers are those of the tables, with the source's claim and the bar beside them."""
+"""The key numbers are those of the tables, with the paper's claim and the bar beside them."""
 
 import pandas as pd
 import pytest
@@ -79,7 +79,7 @@ def test_the_least_dimension_is_the_first_that_meets_its_bars(ensemble, met, lea
 
 
 def test_bars_are_asked_of_this_studys_recipe_alone():
-    """The source's recipe and the lookup are shown, not judged; the worst trajectory counts at d = 4."""
+    """The paper's recipe and the lookup are shown, not judged; the worst trajectory counts at d = 4."""
     found = numbers()
     assert found.loc["ensemble_ours_d4_A", "bar"] == 1e-4 and found.loc["worst_ours_d4_B", "bar"] == 5e-3
     assert found.loc[["ensemble_theirs_A", "ensemble_lookup_A", "worst_ours_d2_A"], "met"].eq("").all()

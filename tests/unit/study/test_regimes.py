@@ -101,7 +101,7 @@ def test_place_and_direction_of_the_fall_do_not_matter():
 
 @pytest.mark.parametrize(("B", "regime"), [(100, "rotation"), (1000, "bending"), (10000, "snaking")])
 def test_the_study_rotates_at_low_bends_at_moderate_and_snakes_at_high_numbers(B, regime):
-    """The source's statement at θ₀ = π/4. Whatever the regime, the mean tangent turns by θ₀."""
+    """The paper's statement at θ₀ = π/4. Whatever the regime, the mean tangent turns by θ₀."""
     motion = measure_motion(simulate(Scene(B, np.pi / 4)).positions)
     assert motion.regime == regime
     assert motion.turned == pytest.approx(np.pi / 4, abs=0.01)

@@ -85,7 +85,7 @@ def _ask_for_one_thread() -> None:
 
 
 def _parser(command: str | None, argv: list[str]) -> OneLineParser:
-    """Knows every command by name, and the options of the one that is asked for, which alone is imported."""
+    """Knows every command by name, and the options of ``command``, the only one that is imported."""
     parser = OneLineParser(
         prog="sedfiber",
         usage="sedfiber COMMAND [options]",

@@ -14,7 +14,7 @@ from sedfiber.study.comparison import Comparison, compare, summary
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Both trajectories, and where E(t) goes."""
+    """Declare both trajectories and the file for E(t)."""
     parser.add_argument("truth", type=Path, help="trajectory that is taken for true")
     parser.add_argument("other", type=Path, help="trajectory that is compared with it, such as a forecast")
     parser.add_argument(
@@ -23,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(args: argparse.Namespace) -> None:
-    """Compare, print a few lines, write or draw E(t) where it is asked for."""
+    """Compare, print a few lines, and write or draw E(t) with ``--output``."""
     if args.output is not None:
         require_writable(args.output)
     truth, other = read_trajectory(args.truth), read_trajectory(args.other)

@@ -22,7 +22,7 @@ KEYS = {
     "n_beads": (f"beads of each fiber, an odd number from 1 to {MOST_BEADS}", "-"),
     "space": (f"one of {', '.join(SPACES)}; integrate x and y of planar motion, or x, y and z", "-"),
     "hydrodynamics": (
-        f"one of {', '.join(HYDRODYNAMICS)}; none: each bead alone; Oseen: far field; RPY: the source's form; "
+        f"one of {', '.join(HYDRODYNAMICS)}; none: each bead alone; Oseen: far field; RPY: the paper's form; "
         "RPY-overlap: with that for r < 2a",
         "Stokes 1851; Oseen 1927; Rotne & Prager 1969; Yamakawa 1970",
     ),
@@ -75,7 +75,7 @@ def _key(key: str) -> dict[str, Any]:
 
 
 def _numerics() -> dict[str, Any]:
-    """How the scene is integrated."""
+    """The entry of the numerics."""
     return {
         "key": "numerics",
         "summary": "how the scene is integrated",

@@ -71,7 +71,7 @@ def _run_one(args: argparse.Namespace, interval: float, t_end: float | None) -> 
 
 
 def _run_table(args: argparse.Namespace, interval: float, t_end: float | None) -> None:
-    """Nothing is written before every row is known to be good; --strict knows an odd end only when it comes to it."""
+    """Forecast all rows of a table. No file is written before all rows are valid."""
     from sedfiber.core.progress_bar import with_progress
     from sedfiber.reduced.start_table import read_starts
 

@@ -57,7 +57,7 @@ def title_of(trajectory: Trajectory) -> str:
 
 
 def _effects(scene: dict) -> str:
-    """What the scene has beside the study's effects, or lacks of them."""
+    """Name the effects that the study's scene lacks, and those of the study's that this scene lacks."""
     flow = scene.get("flow", {})
     words = [f"no {key}" for key in ("gravity", "stretching", "bending") if scene.get(key, "") is None]
     words += [flow.get("name", "a linear") + " flow"] if flow else []

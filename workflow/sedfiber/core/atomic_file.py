@@ -9,7 +9,7 @@ from sedfiber.core.errors import InputError
 
 
 def require_writable(path: Path) -> None:
-    """Refuse, before any work is done, an output whose folder cannot take a new file."""
+    """Raise InputError, before any work, for an output whose folder cannot take a new file."""
     folder = path.parent
     if not folder.is_dir():
         raise InputError(f"output: folder {str(folder)!r} does not exist; create it or give another path")
@@ -20,14 +20,14 @@ def require_writable(path: Path) -> None:
 
 
 def require_parquet(path: Path) -> None:
-    """Refuse, before any work is done, an output that is no new Parquet file."""
+    """Raise InputError, before any work, for an output that cannot become a Parquet file."""
     require_writable(path)
     if path.suffix != ".parquet":
         raise InputError(f"output: {str(path)!r} is written as Parquet; give a name that ends in .parquet")
 
 
 def require_folder(folder: Path) -> None:
-    """Make an output folder, or refuse, before any work is done, one that cannot take files."""
+    """Make an output folder; raise InputError, before any work, for one that cannot take files."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

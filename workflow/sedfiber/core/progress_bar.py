@@ -1,4 +1,4 @@
-"""How far a long job is, on one line of a terminal."""
+"""A progress line in a terminal."""
 
 import sys
 import time

@@ -14,7 +14,7 @@ from sedfiber.reduced.dataset_file import read_falls
 from sedfiber.reduced.measures import forecast_error
 from sedfiber.simulation.trajectory import Trajectory
 
-LINES = {"best": "-", "worst": (0, (4, 1.5))}  # as in the source
+LINES = {"best": "-", "worst": (0, (4, 1.5))}  # as in the paper
 _MOST_BEADS = 16
 
 
@@ -59,7 +59,7 @@ def pairs_of(pairs: Sequence[Pair], test_set: str) -> list[Pair]:
 
 
 def best_and_worst(pairs: Sequence[Pair]) -> dict[float, tuple[Pair, Pair]]:
-    """Of each ℬ, ascending, the pair with the lowest and the one with the highest E_max."""
+    """Choose for each ℬ, ascending, the pairs with the lowest and the highest E_max."""
     groups: dict[float, list[Pair]] = {}
     for pair in sorted(pairs, key=lambda pair: (pair.truth.B, pair.E_max)):
         groups.setdefault(pair.truth.B, []).append(pair)

@@ -1,7 +1,7 @@
 """The vocabulary of block diagrams: boxes, trapezoids, junctions, wires, connection letters, small fibers.
 
 A `Sheet` is a blank drawing measured in inches, so that a block has the size that its text needs.
-Symbols are those of the source: X̂ bead positions, X̄ the shape, X̌ the residual shape, h the
+Symbols are those of the paper: X̂ bead positions, X̄ the shape, X̌ the residual shape, h the
 latent variables, c the centre bead.
 """
 
@@ -35,7 +35,7 @@ class Look(NamedTuple):
 
     @property
     def style(self) -> dict[str, Any]:
-        """As a patch takes it."""
+        """The options of a matplotlib patch."""
         return {"edgecolor": self.color, "facecolor": to_rgba(self.color, self.tint), "linewidth": self.width}
 
 
@@ -94,11 +94,11 @@ class Sheet:
         self.text(place, sign, fontsize=7.5)
 
     def dot(self, place: Point, wire: Wire = STATE) -> None:
-        """Where a wire branches, or two join."""
+        """Draw a dot where a wire branches, or two join."""
         self.axes.add_patch(Circle(self._at(place), 0.025, facecolor=wire.color, edgecolor="none", zorder=3))
 
     def connection(self, letter: str, wire: Wire, beside: Point, *corners: Point) -> None:
-        """A wire with the letter by which the source calls it."""
+        """A wire with the letter by which the paper calls it."""
         self.wire(*corners, wire=wire, label=f"connection {letter}")
         color = GREY if wire == ABSENT else BLACK
         self.text(beside, f"({letter})", fontsize=_SMALL, fontstyle="italic", color=color)
@@ -122,7 +122,7 @@ class Sheet:
         self.text(place, text, fontsize=_SMALL, linespacing=1.3)
 
     def count(self, place: Point, number: int) -> None:
-        """How many numbers a wire carries."""
+        """Write how many numbers a wire carries."""
         self.text(place, str(number), fontsize=_SMALL, color=GREY)
 
     def text(self, place: Point, text: str, **look: Any) -> None:
@@ -143,7 +143,7 @@ class Sheet:
 
 
 def place_keys(axes: Axes) -> None:
-    """What the looks of blocks and wires mean, in one row along the lower edge."""
+    """Draw a legend of blocks and wires along the lower edge."""
     handles = [
         Patch(label="trained", **TRAINED.style),
         Patch(label="fixed before training", **FIXED.style),

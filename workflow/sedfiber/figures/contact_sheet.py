@@ -52,7 +52,7 @@ def draw_contact_sheet(pairs: Sequence[Pair]) -> Figure:
 
 
 def _height(n_columns: int) -> float:
-    """Of a row, in inches."""
+    """Height of a row in inches."""
     return (PAGE_WIDTH - 0.8) / max(n_columns, 4) * _CELL[1] / _CELL[0]
 
 

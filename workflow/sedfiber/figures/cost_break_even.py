@@ -1,4 +1,4 @@
-"""What has to be paid before the first answer, and after how many queries it is earned back."""
+"""Preparation before the first trajectory, and the number of queries that earns it back."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -46,14 +46,14 @@ def write_break_even(axes: Axes, shown: Choices) -> None:
 
 
 def _ways(shown: Choices) -> Iterator[Any]:
-    """What is compared with a simulation: forecasts first, then what learns nothing."""
+    """The choices to compare with a simulation: forecasts first, then those without training."""
     rows = shown.rows[(shown.rows["family"] != SIMULATION) & shown.rows["times_faster"].notna()]
     rows = rows.assign(last=rows["family"] != FORECAST).sort_values(["last", "dimension"], kind="stable")
     return rows.drop_duplicates(["family", "name"])[:_ROWS].itertuples()
 
 
 def _cell(rows: pd.DataFrame) -> str:
-    """Of the more favourable precision."""
+    """The number of queries at the more favourable precision, in words."""
     compared = rows[rows["times_faster"].notna()].sort_values("pays")
     if compared.empty:
         return "—"

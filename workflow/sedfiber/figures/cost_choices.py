@@ -28,7 +28,7 @@ class Choices:
     colors: dict[str, str]
 
     def family(self, name: str) -> pd.DataFrame:
-        """Those of one family; of forecasts those of compiled code."""
+        """The rows of one family; forecasts are those of compiled code."""
         own = self.rows[self.rows["family"] == name]
         return own[~own["name"].str.endswith(TORCH)]
 
@@ -60,7 +60,7 @@ def choices(table: pd.DataFrame) -> Choices:
 
 
 def color_of(shown: Choices, family: str, name: str) -> str:
-    """Of a choice in every panel."""
+    """The color of a choice in every panel."""
     if family == FORECAST:
         return shown.colors[name]
     return {SIMULATION: BLACK, LOOKUP: ORANGE, GALERKIN: PURPLE}.get(family, GREY)

@@ -58,7 +58,7 @@ def _choices(rows: pd.DataFrame) -> Iterator[tuple[str, dict, pd.DataFrame]]:
 
 
 def _laws(growth: pd.DataFrame) -> pd.DataFrame:
-    """Those of RPY by quantity; of few beads there are none."""
+    """The power laws of RPY by quantity; few beads have none."""
     if growth.empty:
         return pd.DataFrame()
     numbers = ("exponent", "standard_error", "prefactor_s", "N_from", "N_to")

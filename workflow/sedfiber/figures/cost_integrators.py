@@ -71,7 +71,7 @@ def _fall(rows: pd.DataFrame, k: float, B: float) -> pd.DataFrame:
 
 def _draw_fall(axes: Axes, rows: pd.DataFrame) -> None:
     axes.set(xscale="log", yscale="log")
-    axes.margins(y=0.1)  # room for the source's words
+    axes.margins(y=0.1)  # room for the words at the paper's set-up
     for (method, jacobian), own in rows.groupby(["method", "jacobian"], sort=False):
         if method == "source":
             _draw_source(axes, own)
@@ -116,7 +116,7 @@ def _legend(rows: pd.DataFrame) -> list[Line2D]:
     entries = []
     for method in (name for name in LOOKS if (rows["method"] == name).any()):
         look = _look(method, "analytic" if method == "LSODA" else "none") | {"zorder": 1}
-        words = {"LSODA": "LSODA (thick: the default)", "source": "source's set-up"}.get(method, method)
+        words = {"LSODA": "LSODA (thick: the default)", "source": "paper's set-up"}.get(method, method)
         entries.append(Line2D([], [], **(look | {"linestyle": "none"}), label=words))
     kinds = [kind for kind in STYLES if (rows.loc[rows["method"] != "source", "jacobian"] == kind).any()]
     return entries + [Line2D([], [], color=BLACK, linestyle=STYLES[kind], label=_WORDS[kind]) for kind in kinds]

@@ -1,4 +1,4 @@
-"""What a reduced model costs to train, and what it is worth."""
+"""Training time and error of the reduced models."""
 
 from typing import Any
 
@@ -31,7 +31,7 @@ VARIANTS = {  # words and colour, as in the figure of reconstruction losses
     "double": (f"double {B_SYMBOL}", VERMILION),
 }
 RECIPES = {"study": ("o", True), "short": ("o", False), "source": ("s", False)}  # marker, and whether it is filled
-_WORDS = {"study": "the study's recipe", "short": "a short training", "source": "the source's recipe"}
+_WORDS = {"study": "the study's recipe", "short": "a short training", "source": "the paper's recipe"}
 _NUMBERS = ("latent_dim", "seed", "training_seconds", "reconstruction_loss", "E_worst", "E_median")
 _ABOVE = 3.0  # of the largest error: where failures are drawn
 _MODEL = ["variant", "latent_dim", "recipe"]

@@ -1,4 +1,4 @@
-"""What a figure of costs does not show, in short."""
+"""A short note of the measurements that a figure of costs leaves out."""
 
 from collections import defaultdict
 from collections.abc import Mapping
@@ -26,7 +26,7 @@ def _omitted(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def _tolerances(rows: pd.DataFrame) -> str:
-    """Those of the rows; of a run that takes too long, tighter ones are not tried."""
+    """The tolerances of the rows. Where a run takes too long, tighter ones are not tried."""
     named = ", ".join(f"{tolerance:.0e}".replace("e-0", "e-") for tolerance in sorted(rows["tolerance"], reverse=True))
     tighter = " and tighter" if rows["status"].str.startswith("takes longer").all() else ""
     return f" at {named}{tighter}"

@@ -1,4 +1,4 @@
-"""What beads and hydrodynamics cost, what they change, and where a forecast begins to pay."""
+"""Cost and effect of bead number and hydrodynamics, and the bead number from which forecasts pay."""
 
 from typing import Any
 
@@ -60,7 +60,7 @@ def draw(table: pd.DataFrame, growth: pd.DataFrame, models: pd.DataFrame) -> Fig
 
 
 def _title(models: pd.DataFrame) -> str:
-    """Of the last panel: the ℬ that was asked."""
+    """Title of the last panel: the ℬ that was forecast."""
     B = select_columns(models, ("family", "precision"), ("B", *GROWING))["B"]
     return f"simulation and forecast, {B_SYMBOL} = {B.iloc[0]:.4g}"
 
@@ -71,7 +71,7 @@ def _fall(rows: pd.DataFrame) -> str:
 
 
 def _changes(own: pd.DataFrame) -> dict[str, pd.Series]:
-    """Of each N of one mobility, from its finest."""
+    """Distance of each N of one mobility from its finest."""
     finest, times = own.iloc[-1], own["settling_time"] / own["n_beads"]
     return {
         "shape": own["shape_from_finest_L"],

@@ -31,7 +31,7 @@ PARTS = {"E_shape": ("-", r"$E_\mathrm{shape}$"), "E_pos": (":", r"$E_\mathrm{po
 
 
 def draw(table: pd.DataFrame, model: str) -> Figure:
-    """Above: E(t/T) of ``model``. Below: its parts. The source's recipe and the lookup are drawn in."""
+    """Above: E(t/T) of ``model``. Below: its parts. The paper's recipe and the lookup are drawn in."""
     rows = select_columns(
         table, ("model", "recipe", "test_set", "B"), ("latent_dim", "time_fraction", "E", "E_shape", "E_pos")
     )
@@ -56,7 +56,7 @@ def draw(table: pd.DataFrame, model: str) -> Figure:
 
 
 def _compared(rows: pd.DataFrame, model: str) -> list[LegendEntry]:
-    """The chosen model, in black, then the source's recipe and the lookup."""
+    """The chosen model, in black, then the paper's recipe and the lookup."""
     known = {entry.model: entry for entry in legend_entries(rows)}
     chosen = known.pop(one_of("model", model, known))
     others = [other for other in known.values() if other.recipe != "rollout"]
@@ -92,7 +92,7 @@ def _draw_mean(axes: Axes, rows: pd.DataFrame, entry: LegendEntry, column: str, 
 
 
 def _draw_levels(axes: Axes, test_set: str) -> None:
-    draw_level(axes, SOURCE_BOUND, VERMILION, (0, (6, 3)), "source's bound, 0.1")
+    draw_level(axes, SOURCE_BOUND, VERMILION, (0, (6, 3)), "paper's bound, 0.1")
     draw_level(axes, ENSEMBLE_BARS[test_set], BLACK, (0, (2, 2)), "this study's bar, $10^{-4}$ on A, $10^{-3}$ on B")
 
 

@@ -1,4 +1,4 @@
-"""How far every hard case stays from its bounds."""
+"""The distance of every hard case from its bounds."""
 
 import numpy as np
 import pandas as pd

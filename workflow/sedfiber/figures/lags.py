@@ -1,4 +1,4 @@
-"""By how much time forecasts are late, and what error is left when that is taken out."""
+"""The lag of forecasts, and the error left without it."""
 
 from typing import Any
 
@@ -26,7 +26,7 @@ _POINT: dict[str, Any] = {"markersize": 3.2, "markerfacecolor": "none", "markere
 
 
 def draw(table: pd.DataFrame, model: str) -> Figure:
-    """Above: the lag at the largest E_shape over ℬ, of ``model`` and of the source's recipe.  Below: E_shape
+    """Above: the lag at the largest E_shape over ℬ, of ``model`` and of the paper's recipe.  Below: E_shape
     at that moment with the lag taken out over E_shape as it is."""
     rows = select_columns(
         table, ("model", "recipe", "test_set"), ("latent_dim", "B", "lag", "E_shape_max", "E_shape_unlagged")
@@ -49,7 +49,7 @@ def draw(table: pd.DataFrame, model: str) -> Figure:
 
 
 def _compared(rows: pd.DataFrame, model: str) -> list[LegendEntry]:
-    """The chosen model and those of the source's recipe."""
+    """The chosen model and those of the paper's recipe."""
     known = {entry.model: entry for entry in legend_entries(rows)}
     chosen = known.pop(one_of("model", model, known))
     return [chosen, *(other for other in known.values() if other.recipe == "source")]

@@ -36,7 +36,7 @@ from sedfiber.reduced.training.settings import VARIANTS
 ROW, LANE, BUS = 1.2, 0.28, 2.2  # heights of the shape's row, the centre bead's lane and ℬ's line
 NOW, LATER, REST = bent(0.75, 0.35, 0.28), bent(0.4, 0.75, 0.28), bent(0.0, 1.2, 0.28)  # sketches, inches
 
-# the source's connections in the upper row: place of the letter, corners of the wire
+# the paper's connections in the upper row: place of the letter, corners of the wire
 CONNECTIONS = {
     "a": ((0.92, 1.3), (0.7, ROW), (0.995, ROW)),
     "b": ((1.35, 1.1), (1.145, ROW), (1.545, ROW)),
@@ -68,7 +68,7 @@ SKETCHES = (
 
 @dataclass(frozen=True)
 class Sizes:
-    """What a model's card says of its parts; ``damping`` is A in units of std(h) U_s/a."""
+    """Sizes of a model's parts, from its card; ``damping`` is A in units of std(h) U_s/a."""
 
     variant: str
     n_beads: int
@@ -117,7 +117,7 @@ def _count(key: str, value: object, least: int = 1) -> int:
 
 
 def draw(card: Path) -> Figure:
-    """Above: from X̂(t) to X̂(t + τ) with the source's connections (a) to (o). Below: the three networks opened."""
+    """Above: from X̂(t) to X̂(t + τ) with the paper's connections (a) to (o). Below: the three networks opened."""
     sizes, figure = _read_sizes(card), Figure(figsize=(PAGE_WIDTH, 4.75))
     figure.set_layout_engine("none")
     sheet = Sheet.on(figure.add_axes((0.0, 0.0, 1.0, 1.0)), PAGE_WIDTH, 4.75)
@@ -146,7 +146,7 @@ def _draw_blocks(sheet: Sheet, sizes: Sizes) -> None:
 
 
 def _draw_connections(sheet: Sheet, sizes: Sizes) -> None:
-    """The lettered ones, then those by which the source's are fed."""
+    """The lettered ones, then those by which the paper's are fed."""
     for letter, (beside, *corners) in CONNECTIONS.items():
         sheet.connection(letter, sizes.wires.get(letter, STATE), beside, *corners)
     sheet.wire((1.07, LANE), (1.07, ROW - 0.075))

@@ -1,4 +1,4 @@
-"""How each model is named and marked: the same in every figure that compares them."""
+"""Names and markers of the models, alike in every figure that compares them."""
 
 import math
 from collections import Counter
@@ -10,7 +10,7 @@ from sedfiber.core.errors import InputError
 from sedfiber.core.validation import one_of
 from sedfiber.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, VERMILION
 
-NAMES = {"rollout": "this study", "source": "source's recipe", "lookup": "lookup, no model"}
+NAMES = {"rollout": "this study", "source": "paper's recipe", "lookup": "lookup, no model"}
 
 # colour and marker of each recipe's models, in order of d
 LOOKS = {
@@ -31,9 +31,9 @@ class LegendEntry(NamedTuple):
 
 
 def legend_entries(table: pd.DataFrame) -> list[LegendEntry]:
-    """Every model of a table with columns model, recipe and latent_dim: ours by d, the source's, the lookup.
+    """Every model of a table with columns model, recipe and latent_dim: ours by d, the paper's, the lookup.
 
-    Raises InputError for an unknown recipe, or more models of one recipe than can be told apart.
+    Raises InputError for an unknown recipe, or for more models of one recipe than there are markers.
     """
     rows = [(recipe, d, model) for model, recipe, d in _models(table)]
     rows.sort(key=lambda row: (list(NAMES).index(row[0]), row[1], row[2]))

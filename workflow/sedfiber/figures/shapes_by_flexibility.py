@@ -125,7 +125,7 @@ def _draw_shapes(axes: Axes, falls: list[Trajectory], grid: _Grid) -> None:
 
 
 def _draw_angles(axes: Axes, rows: pd.DataFrame, grid: _Grid) -> None:
-    """What turned each fiber's mean tangent, and the bend of each side: where they cross, the regime changes."""
+    """Draw how far each fiber turned and bent; where the curves cross, the regime changes."""
     for column, (label, color, marker, share) in ANGLES.items():
         axes.plot(np.degrees(share * rows[column]), grid.middles, marker=marker, color=color, label=label)
     axes.set(xlabel="degrees")
@@ -133,7 +133,7 @@ def _draw_angles(axes: Axes, rows: pd.DataFrame, grid: _Grid) -> None:
 
 
 def _draw_slides(axes: Axes, rows: pd.DataFrame, grid: _Grid) -> None:
-    """How far each fiber slides once it is folded, and the bond's length that makes it snaking."""
+    """Draw how far each folded fiber slides, and the bond length that makes it snaking."""
     axes.barh(grid.middles, rows["slid_folded"], 0.3 * (grid.high - grid.low), color=VERMILION)
     axes.axvline(rows["bond"].iloc[0], color=GREY, linestyle=(0, (2, 2)), linewidth=1.0, label="a bond, L/N")
     axes.set(xlabel="L, once folded", xlim=(0.0, None))

@@ -1,4 +1,4 @@
-"""Where a mobility loses its meaning: a force that moves a bead against itself.
+"""Detection of mobilities that are not positive definite: a force would move a bead against itself.
 
 Plain Rotne–Prager–Yamakawa and Oseen have negative eigenvalues when beads overlap enough; the
 beads then attract each other without limit.  The overlap form, and no hydrodynamics, never do.

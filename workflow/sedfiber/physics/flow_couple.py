@@ -80,7 +80,7 @@ def bonded(j, beads):
 
 @kernel()
 def share(j, beads):
-    """What each of its bonds carries of the couple of bead ``j``: half, or all at an end of its fiber."""
+    """The share of the couple of bead ``j`` on each of its bonds: half, or all at an end of its fiber."""
     return 1.0 if j % beads == 0 or not bonded(j, beads) else 0.5
 
 

@@ -8,7 +8,7 @@ from sedfiber.physics.kernel import kernel
 
 @kernel()
 def open_state(y: State, x: Positions, force: Positions) -> None:
-    """From a state to positions relative to the centre bead, ``x`` (N, d); no force yet on any bead."""
+    """Turn a state into positions relative to the centre bead, ``x`` (N, d), and clear the forces."""
     n, d = x.shape
     for i in range(n):
         for k in range(d):
@@ -52,7 +52,7 @@ def add_work_row(u: Positions, force: Positions, band: Band, jac: Matrix) -> Non
 
 @kernel()
 def to_centre_frame(jac: Matrix, shape: tuple, placed: bool) -> None:
-    """From ``∂(u, Ẇ)/∂x`` to ``∂(dy/dt)/∂y``, in place, (N d + 1, N d + 1).
+    """Turn ``∂(u, Ẇ)/∂x`` into ``∂(dy/dt)/∂y`` in place, (N d + 1, N d + 1).
 
     Moving the centre bead's entry moves all beads: its columns are the sum of all columns of a
     coordinate, which is zero when nothing depends on the place.

@@ -1,4 +1,4 @@
-"""How kernels of the physics are compiled: kept on disk, and dividing by zero as NumPy does.
+"""The compiler of the physics' kernels: cached on disk, dividing by zero as NumPy does.
 
 A trial step of a solver may put two beads into one place. An exception raised there would pass through the
 solver's own compiled code; a number that is not finite makes it reject the step.

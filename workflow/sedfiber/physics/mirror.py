@@ -71,7 +71,7 @@ class MirrorSymmetric:
         return self.system.relative_velocities(self._whole_states(y))
 
     def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
-        """As of the whole fiber."""
+        """The answer of the whole fiber's system."""
         return self.system.loss_of_definiteness(self._whole_states(y))
 
     def rhs(self, t: float, y: State) -> State:

@@ -23,7 +23,7 @@ class ParabolicFlow:
 
     @cached_property
     def strain(self) -> tuple[Array, float]:
-        """None at y = 0, and the slope of ``E_xy = −P y/H²`` with y: see ``StrainingFlow``."""
+        """Zero at y = 0, and the slope of ``E_xy = −P y/H²`` with y: see ``StrainingFlow``."""
         return np.zeros((3, 3)), -self.peak / self.half_width**2
 
     def add_velocity(self, x: Positions, u: Positions) -> None:

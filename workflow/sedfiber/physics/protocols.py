@@ -1,4 +1,4 @@
-"""What a system is made of: forces, a mobility, flows.
+"""The interfaces of a system's parts: forces, a mobility, flows.
 
 Each part is one small class.  ``placed`` says which positions it is given: False for those
 relative to the centre bead, all that a part without a place of its own depends on; True for

@@ -126,7 +126,7 @@ class System:
         return None if words is None else (words, OVERLAP_REMEDY)
 
     def _open(self, y: State) -> tuple[Positions, Positions, Positions, Positions, Positions]:
-        """Of a state: positions relative to the centre bead, in the laboratory (the same array if no
+        """Open a state: positions relative to the centre bead, in the laboratory (the same array if no
         part is placed), conservative forces, all forces, room for velocities; all (N, d) and good
         until the next call.
         """

@@ -1,4 +1,4 @@
-"""What a plane no-slip wall adds to the Rotne–Prager mobility of beads of radius 1.
+"""The correction of the Rotne–Prager mobility by a plane no-slip wall, for beads of radius 1.
 
 ``ΔM_ij`` is Blake's (1971) image of the Oseen tensor, averaged over the surfaces of both
 beads, which the Faxén operators ``(1 + ∇²_i/6)(1 + ∇²_j/6)`` do exactly (the UF coupling

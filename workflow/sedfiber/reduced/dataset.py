@@ -54,7 +54,7 @@ class Dataset:
 
     @property
     def names(self) -> list[str]:
-        """How messages call each trajectory."""
+        """The name of each trajectory in messages."""
         return [trajectory.name for trajectory in self]
 
     def require_sound(self) -> None:

@@ -1,4 +1,4 @@
-"""What a forecast starts from; without torch, for compiled forecasts need none."""
+"""The start of a forecast, without torch."""
 
 from dataclasses import dataclass
 
@@ -8,11 +8,11 @@ from sedfiber.reduced.dataset import SettlingFall
 
 @dataclass(frozen=True)
 class Start:
-    """What a forecast starts from: ``initial`` positions (N, 3), and the steady state at ℬ.
+    """The start of a forecast: ``initial`` positions (N, 3), and the steady state at ℬ.
 
     ``terminal`` (N, 3) is relative to the centre bead, ``terminal_velocity`` has shape (3,).
     ``nearest`` is the nearest trained ℬ with its terminal shape, where ℬ is outside the
-    training range; without it the networks are asked at ℬ itself.
+    training range; without it the networks see ℬ itself.
     """
 
     B: float

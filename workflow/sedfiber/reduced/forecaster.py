@@ -105,12 +105,12 @@ class Forecaster:
         return self.model.sweep(starts, interval, counts, out, dtype)
 
     def warnings(self, B: float, theta0: float, shape: Any = None) -> list[str]:
-        """Why a forecast of this start is not to be relied on; empty within the training range."""
+        """Reasons to distrust a forecast of this start; empty within the training range."""
         scene = self._scene(B, theta0, shape)
         return self._doubts_about_the_start(scene, self._start(scene))
 
     def start(self, B: float, theta0: float, shape: Any = None) -> Start:
-        """What the model starts from, for `CompiledModel.forecast_many`: the first bead is the left end."""
+        """The model's start, for `CompiledModel.forecast_many`; the first bead is the left end."""
         return self._start(self._scene(B, theta0, shape))
 
     def covers(self, B: float, theta0: float) -> bool:
@@ -227,7 +227,7 @@ def _stands_still(t: Times, distance: Array) -> bool:
 
 
 def _doubts_about_the_end(t: Times, distance: Array, settled: float | None, t_end: float | None) -> list[str]:
-    """What to say of a forecast that does not end at the terminal shape: one that was cut short may not."""
+    """Warnings about a forecast that does not end at the terminal shape, unless it was cut short."""
     off = f"{distance[-1]:.2g} L from the terminal shape, {SETTLED:g} L at most is settled"
     if settled is None and _stands_still(t, distance):
         return [f"the forecast comes to rest elsewhere: {off}"]

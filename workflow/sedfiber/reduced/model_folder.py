@@ -1,7 +1,7 @@
 """A model's folder: ``model.safetensors`` (weights) and ``card.json`` (what they are), read and checked.
 
 The card holds the checksum of the weights, so that a half-finished write is never taken for a
-model.  Neither torch nor NumPy is needed here: who asks turns the bytes into tensors.
+model.  Neither torch nor NumPy is needed here: the caller turns the bytes into tensors.
 """
 
 import json
@@ -34,5 +34,5 @@ def read_model_folder(folder: str | Path, kind: str) -> tuple[dict[str, Any], by
 
 
 def does_not_fit(folder: str | Path, error: Exception) -> InputError:
-    """What to raise for a card whose entries are missing, or do not fit the weights."""
+    """The error for a card whose entries are missing, or do not fit the weights."""
     return InputError(f"{folder} holds a model that does not fit: {str(error).splitlines()[0]}")

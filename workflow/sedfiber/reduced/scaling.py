@@ -14,7 +14,7 @@ from sedfiber.reduced.dataset import Dataset, SettlingFall
 
 @dataclass(frozen=True)
 class Scales:
-    """What turns data into network inputs; taken from the training data only."""
+    """Scales that turn data into network inputs; taken from the training data only."""
 
     n_beads: int
     B_min: float

@@ -1,6 +1,6 @@
 """A table of starts to forecast: one row a fiber, as CSV or Parquet.
 
-Columns are ``B`` and ``theta0`` (radians), and, for who wants them, ``shape`` (a file with the start
+Columns are ``B`` and ``theta0`` (radians), and optionally ``shape`` (a file with the start
 shape, its path relative to the table) and ``name`` (of the file to write, without its suffix; where
 there is none it is ``B{B}_theta{theta0}``).  An empty cell is as good as none.
 """

@@ -1,4 +1,4 @@
-"""What is done with a forecast's warnings: shown in one line, or, with ``--strict``, raised."""
+"""A forecast's warnings as one line, or, with ``--strict``, as an error."""
 
 from sedfiber.core.errors import InputError
 from sedfiber.simulation.trajectory import Trajectory
@@ -13,5 +13,5 @@ def warning_line(trajectory: Trajectory, strict: bool, place: str = "") -> str:
 
 
 def refusal(words: str) -> InputError:
-    """What ``--strict`` raises for a forecast that would be warned of."""
+    """The error of ``--strict`` for a forecast with warnings."""
     return InputError(f"strict: {words}; give values of the training, or leave out --strict")

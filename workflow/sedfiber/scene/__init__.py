@@ -1,1 +1,1 @@
-"""What a user describes, and how it becomes a system of equations."""
+"""Scenes: a user's description, its checks, and the system of equations made from it."""

@@ -1,4 +1,4 @@
-"""From a scene to the system of exactly the parts it lists: what is not listed is not made."""
+"""The system of exactly the parts that a scene lists."""
 
 from sedfiber.physics.bending import Bending
 from sedfiber.physics.free_draining import FreeDraining

@@ -16,7 +16,7 @@ MOST_BEADS = 2001  # the dense Jacobian of more in volume would not fit in a few
 
 @dataclass(frozen=True)
 class SceneFields:
-    """What `Scene` holds; see there. Raises InputError for any single value that is not allowed."""
+    """The fields of `Scene`, each checked by itself; raises InputError for a value that is not allowed."""
 
     B: float
     theta0: float

@@ -1,4 +1,4 @@
-"""How a scene is integrated."""
+"""Integrator, tolerances, sampling and end of a run."""
 
 import math
 from dataclasses import dataclass, replace
@@ -21,7 +21,7 @@ LONGEST_STEP = 0.2
 
 @dataclass(frozen=True)
 class Numerics:
-    """How a scene is integrated.
+    """Integrator, tolerances, sampling and end of a run.
 
     ``integrator`` follows from the scene where it is None: an implicit method, or with thermal
     noise the stochastic one.  ``rtol`` and ``atol`` (in a) bound the local error of each

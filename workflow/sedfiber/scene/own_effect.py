@@ -49,7 +49,7 @@ class _OwnEffect:
 
 
 def _asked(name: str, function: Any, x: Positions) -> Array:
-    """What the user's code makes of a copy of ``x``; raises NumericalError where it fails."""
+    """Call the user's code on a copy of ``x``; raises NumericalError where it fails."""
     try:
         return np.asarray(function(x.copy()), dtype=float)
     except Exception as error:

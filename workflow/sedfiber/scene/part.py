@@ -1,4 +1,4 @@
-"""What every part of a scene has in common: parameters with a unit, and reading from plain values."""
+"""The base of all parts of a scene: parameters with a unit, and reading from plain values."""
 
 from collections.abc import Callable
 from dataclasses import MISSING, asdict, dataclass, field, fields
@@ -14,7 +14,7 @@ def parameter(unit: str, meaning: str, default: Any = MISSING) -> Any:
 
 @dataclass(frozen=True)
 class Part:
-    """What all parts have in common: a key of the scene, a summary, a source, and reading from plain values."""
+    """The base of all parts: a key of the scene, a summary, a source, and reading from plain values."""
 
     key: ClassVar[str]
     summary: ClassVar[str]

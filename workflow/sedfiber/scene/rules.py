@@ -1,4 +1,4 @@
-"""Which parts of a scene go together; what makes no sense is refused by name."""
+"""Which parts of a scene go together; each rule raises an error that names the key."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""What is simulated: fibers, their start, and the effects that act on them."""
+"""A scene: fibers, their start, and the effects that act on them."""
 
 from dataclasses import dataclass, fields
 from typing import Any
@@ -53,7 +53,7 @@ class Scene(SceneFields):
 
     @property
     def is_mirror_symmetric(self) -> bool:
-        """Whether exact left–right symmetry was asked for, by ``tilt = 0``, and start and effects have it."""
+        """Whether ``tilt = 0`` asks for exact left–right symmetry, and start and effects have it."""
         return self.tilt == 0.0 and is_symmetric(self)
 
     def to_dict(self) -> dict:
@@ -63,7 +63,7 @@ class Scene(SceneFields):
         return {key: value for key, value in values.items() if key in kept or value not in (None, [])}
 
     def facts(self) -> dict:
-        """What every file of this scene records: the scene and both elasto-gravitational numbers."""
+        """The metadata of every file of this scene: the scene and both elasto-gravitational numbers."""
         return {
             "scene": self.to_dict() | {"start_angle": self.start_angle},
             "B": self.B,

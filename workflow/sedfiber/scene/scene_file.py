@@ -57,7 +57,7 @@ def _require_known(values: dict[str, Any]) -> None:
 
 
 def _filled(part: type[Part]) -> str:
-    """What may stand behind the key of a part that no scene has unless it says so."""
+    """The parameters that may stand behind the key of a part."""
     if part is Contact:
         return "{} for the defaults"
     words = f"{{{', '.join(part.names())}}}"

@@ -1,4 +1,4 @@
-"""Where the beads are at t = 0."""
+"""Positions of the beads at t = 0."""
 
 import math
 

@@ -112,7 +112,7 @@ def _third_dimension(scene: Scene, run: Run) -> Verdict:
 
 
 def _bottom(gravity: Gravity, depth: float, positions: History) -> Verdict:
-    """How far the lowest bead fell, over the stated depth."""
+    """The depth that the lowest bead reached, over the stated depth."""
     down = positions @ np.array(gravity.direction)
     fall = float((down.max(axis=1) - down[0].max()).max()) / depth
     return Verdict("wall", fall > 1.0, fall, f"of the depth {depth:g} a fallen", "wall: {point: …}")
@@ -126,7 +126,7 @@ def _channel(half_width: float, positions: History) -> Verdict:
 
 
 def _stretch(strain: float, factor: float) -> Verdict:
-    """What an inextensible model would not show."""
+    """The strain, which an inextensible model would not show."""
     meaning = "largest bond strain, which an inextensible fiber would not show"
     stiffer = f"stretching: {{factor: {10.0 * factor:g}}}, or beads"
     return Verdict("inextensibility", strain > STRETCH, strain, meaning, stiffer)

@@ -1,4 +1,4 @@
-"""What a scene's parts can do at most: bounds that a sound run cannot break."""
+"""Bounds on what a scene's parts can do; a sound run cannot break them."""
 
 import numpy as np
 

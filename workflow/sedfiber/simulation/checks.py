@@ -1,4 +1,4 @@
-"""What every run is held to after it ends; a broken bound is an error, not a result."""
+"""Checks of every run after its end; a broken bound is an error, not a result."""
 
 from dataclasses import asdict, dataclass
 
@@ -89,7 +89,7 @@ def largest_strain(shapes: History, n_beads: int) -> float | None:
 
 
 def _smallest_gap(shapes: History, n_beads: int) -> float | None:
-    """None when all beads are neighbours."""
+    """The smallest gap between beads that are no neighbours; None where there are none."""
     gap = min(smallest_gap(x, n_beads) for x in shapes)
     return None if np.isinf(gap) else gap
 

@@ -1,4 +1,4 @@
-"""How far two histories of the same fiber are apart."""
+"""Distances between two histories of the same fiber."""
 
 import numpy as np
 

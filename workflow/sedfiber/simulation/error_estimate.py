@@ -1,4 +1,4 @@
-"""How wrong is a run?  The same run at tighter tolerances, compared sample by sample.
+"""Error estimate of a run: the same run at tighter tolerances, compared sample by sample.
 
 A cheap estimate: one more run of half again the cost, the same method and no other checks.  It sees the
 error of the steps; that of the model (beads, mobility) is another matter.
@@ -24,7 +24,7 @@ PROPORTION = 5.0  # of the tolerance, over L: half of what is promised, for the 
 
 
 def needs_estimate(scene: Scene, numerics: Numerics) -> bool:
-    """Where it was asked for, and wherever tolerances are loose; noise follows no tolerance."""
+    """Whether to estimate: with ``estimate_error``, or at loose tolerances; noise follows no tolerance."""
     return scene.noise is None and (numerics.estimate_error or _loosest(numerics) > LOOSE)
 
 

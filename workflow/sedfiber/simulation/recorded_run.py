@@ -1,4 +1,4 @@
-"""What an integration gave, in the coordinates that settling, checks and audit look at."""
+"""The record of an integration, in the coordinates that settling, checks and audit use."""
 
 from dataclasses import dataclass
 

@@ -78,7 +78,7 @@ def simulate(
 
 
 def system_of(scene: Scene) -> System | MirrorSymmetric:
-    """The equations of motion; of one half where exact symmetry was asked for."""
+    """The equations of motion; of one half where the scene asks for exact symmetry."""
     system = assemble(scene)
     return MirrorSymmetric(system) if scene.is_mirror_symmetric else system
 

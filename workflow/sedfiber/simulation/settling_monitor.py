@@ -50,7 +50,7 @@ class SettlingMonitor:
         )
 
     def _way_out(self) -> str:
-        """What to try where a fiber stays in a steady shape that it should leave."""
+        """Advice for a fiber that stays in a steady shape which it should leave."""
         if self._scene.shape is None and abs(self._scene.start_angle) == math.pi / 2:
             return "a vertical fiber falls along its axis: give another theta0, or --t-end"
         return "give --t-end, or a larger --tilt to leave a symmetric start"

@@ -85,7 +85,7 @@ class Trajectory:
 
     @property
     def name(self) -> str:
-        """How messages call this fall."""
+        """The name of this fall in messages."""
         return f"B = {self.B:g}, angle_index = {self.angle_index}"
 
 

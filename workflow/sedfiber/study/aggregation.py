@@ -1,4 +1,4 @@
-"""From one file per trajectory to the data set and the table of facts, keyed by (ℬ, angle_index)."""
+"""The data set and the table of facts from one file per trajectory, keyed by (ℬ, angle_index)."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""What the code means that a command runs: a fingerprint that changes when its result may.
+"""A fingerprint of the code that a command runs; it changes when the result may.
 
 Of every package file that a command imports the syntax tree counts, without docstrings: reworded
 comments and new line breaks change nothing, a changed constant or expression does.
@@ -46,7 +46,7 @@ def module_sources(module: str) -> list[Path]:
 
 @dataclass(frozen=True)
 class _Module:
-    """What counts of one file: the checksum of its syntax tree without docstrings, and the package files it imports."""
+    """One file: the checksum of its syntax tree without docstrings, and the package files it imports."""
 
     meaning: str
     imported: tuple[Path, ...]

@@ -48,7 +48,7 @@ def compare(truth: Trajectory, other: Trajectory) -> Comparison:
 
 
 def summary(one: Comparison) -> dict[str, dict[str, float]]:
-    """Of E, E_shape and E_pos: the largest and its time, the mean over the samples, and the last."""
+    """The largest of E, E_shape and E_pos and its time, the mean over the samples, and the last."""
     parts = {"E": one.error.total, "E_shape": one.error.shape, "E_pos": one.error.position}
     return {name: _summary(one.t, values) for name, values in parts.items()}
 

@@ -15,7 +15,7 @@ SCENE_NAME = r"\w[\w-]*"  # what rules know for a scene in the names of files
 
 @dataclass(frozen=True)
 class Study:
-    """What the workflow needs to know of ``config.yaml``."""
+    """The study that ``config.yaml`` describes."""
 
     config: dict[str, Any]
 
@@ -71,7 +71,7 @@ class Study:
                 raise InputError(f"config: {place}.{error}") from None
 
     def _require_shown_fall(self) -> None:
-        """The figures of the study show falls that it trains on, as the source's do."""
+        """The figures of the study show falls that it trains on, as the paper's do."""
         for key, value in self.config["figures"].items():
             trained = self.config["study"]["train"][key]
             if value not in trained:
@@ -87,7 +87,7 @@ class Study:
 
     @property
     def simulation_settings(self) -> dict[str, Any]:
-        """What all runs of ``sedfiber simulate`` share."""
+        """Options that all runs of ``sedfiber simulate`` share."""
         return self.config["scene"] | self.config["simulation"]
 
     @property
@@ -97,32 +97,32 @@ class Study:
         return {key: scene[key] for key in ("n_beads", "hydrodynamics")}
 
     def terminal_shapes_settings(self, split: str) -> dict[str, Any]:
-        """Of ``solve_terminal_shapes``."""
+        """Settings of ``solve_terminal_shapes``."""
         return self.fiber | {"B": self.B_values(split)}
 
     @property
     def terminal_curve_settings(self) -> dict[str, Any]:
-        """Of ``solve_terminal_curve``: the range of the training."""
+        """Settings of ``solve_terminal_curve``: the range of the training."""
         B = self.config["study"]["train"]["B"]
         return self.fiber | {"B_min": min(B), "B_max": max(B)}
 
     def autoencoder_settings(self, variant: str, dim: str, seed: str) -> dict[str, Any]:
-        """Of ``train_autoencoder``."""
+        """Settings of ``train_autoencoder``."""
         settings = self.config["autoencoders"]["settings"]
         return {"variant": variant, "latent_dim": dim, "seed": seed, "settings": settings}
 
     def node_settings(self, model: str) -> dict[str, Any]:
-        """Of ``train_node`` for one of the study's models."""
+        """Settings of ``train_node`` for one of the study's models."""
         node = self.config["node"]["models"][model]
         return {key: node[key] for key in ("recipe", "seed")} | {"settings": self.config["node"][node["recipe"]]}
 
     def short_node_settings(self, seed: str) -> dict[str, Any]:
-        """Of ``train_node`` for a model trained in short."""
+        """Settings of ``train_node`` for a model trained in short."""
         return {"recipe": "rollout", "seed": seed, "settings": self.short_node}
 
     @property
     def key_numbers_settings(self) -> dict[str, Any]:
-        """Of ``tabulate_key_numbers``: the forecast model, and the angle of the falls that the figures show."""
+        """Settings of ``tabulate_key_numbers``: the forecast model, and the angle that the figures show."""
         model = self.config["node"]["forecast_model"]
         variant = self.config["node"]["models"][model]["variant"]
         return {"model": model, "variant": variant, "angle_index": self.config["figures"]["angle_index"]}
@@ -134,13 +134,13 @@ class Study:
         return [(number_name(B), k) for B in cases["B"] for k in cases["angle_index"]]
 
     def integrator_settings(self, B: str, k: str) -> dict[str, Any]:
-        """Of ``measure_integrators`` for one fall."""
+        """Settings of ``measure_integrators`` for one fall."""
         given = self.config["cost"]["integrators"] | {"B": B, "angle_index": k}
         return given | {"n_beads": self.config["scene"]["n_beads"]}
 
     @property
     def trajectories_settings(self) -> dict[str, Any]:
-        """Of ``measure_trajectories``: every fall of the study."""
+        """Settings of ``measure_trajectories``: every fall of the study."""
         splits = [self.config["study"][split] for split in SPLITS]
         return {"splits": splits, "n_beads": self.config["scene"]["n_beads"]}
 
@@ -159,7 +159,7 @@ class Study:
         return self.config["node"]["rollout"] | self.config["cost"]["models"]["node"]
 
     def model_growth_settings(self, n_beads: str) -> dict[str, Any]:
-        """Of ``measure_model_growth`` at one number of beads."""
+        """Settings of ``measure_model_growth`` at one number of beads."""
         return self.config["cost"]["model_growth"] | {"n_beads": n_beads, "node": self.short_node}
 
 

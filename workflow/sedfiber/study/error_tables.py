@@ -17,7 +17,7 @@ TIME_FRACTIONS = np.linspace(0.0, 1.0, 201)  # of the settling period of each tr
 
 @dataclass(frozen=True)
 class ModelLabel:
-    """What made a set of forecasts, in the tables: a name, how it was trained, and its latent dimension."""
+    """The label of a set of forecasts in the tables: name, training recipe, latent dimension."""
 
     model: str
     recipe: str

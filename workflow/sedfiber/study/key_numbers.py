@@ -1,6 +1,6 @@
-"""The key numbers of the study: this run beside the source's claim and the bar that is asked for.
+"""The key numbers of the study: this run beside the paper's claim and our target.
 
-Every row has the columns key, quantity, this_run, source (words of what the source states), bar (an
+Every row has the columns key, quantity, this_run, source (words of what the paper states), bar (an
 upper bound, or nothing) and met (yes, no, or nothing where there is no bar).  E is squared: 1e-4 is
 1 % of the length.
 """
@@ -22,7 +22,7 @@ from sedfiber.study.targets import (
 )
 
 NOT_STATED = "not stated"
-_RECIPES = {"rollout": "this study", "source": "the source's recipe", "lookup": "spline lookup"}
+_RECIPES = {"rollout": "this study", "source": "the paper's recipe", "lookup": "spline lookup"}
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ def _of_dimensions(table: pd.DataFrame, model: str) -> list[dict]:
 
 
 def _of_forecasts(table: pd.DataFrame) -> list[dict]:
-    """Of every forecaster and set: the largest ensemble mean, and the worst trajectory, at any ℬ and any time."""
+    """The largest ensemble mean and the worst trajectory of every forecaster and set, at any ℬ and any time."""
     rows = []
     for (model, recipe), part in table.groupby(["model", "recipe"], sort=False):
         for test_set, of_set in part.groupby("test_set"):
@@ -130,7 +130,7 @@ def _of_forecasts(table: pd.DataFrame) -> list[dict]:
 
 
 def _bars(recipe: str, latent_dim: float, test_set: str) -> tuple[float | None, float | None]:
-    """Of the ensemble mean, and of the worst trajectory: both are asked of this study's own recipe alone."""
+    """Targets of the ensemble mean and of the worst trajectory, for this study's own recipe alone."""
     if recipe != "rollout":
         return None, None
     return ENSEMBLE_BARS[test_set], WORST_BARS[test_set] if latent_dim == SOURCE_LATENT_DIM else None

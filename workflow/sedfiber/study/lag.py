@@ -1,4 +1,4 @@
-"""By how much time a forecast shape is late, and what error is left when that is taken out.
+"""The lag of a forecast shape, and the error left without it.
 
 The lag δ(t) is that of the true shape which comes closest to the forecast shape of now:
 
@@ -28,7 +28,7 @@ _SETTLED = 1e-12  # of the trajectory's duration: a smaller step ends the search
 
 @dataclass(frozen=True)
 class Lag:
-    """Of every sample after t = 0, (T − 1,): δ, NaN where not defined; E_shape as it is and without the lag."""
+    """Lags of all samples after t = 0, (T − 1,): δ, NaN where not defined; E_shape as it is and without the lag."""
 
     t: Times
     lag: Array

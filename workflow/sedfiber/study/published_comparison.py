@@ -96,7 +96,7 @@ def _values(one: Compared, table: pd.DataFrame) -> pd.Series:
 
 
 def _factors(ours: Array, theirs: Array) -> Array:
-    """How many times the larger of each pair is as large as the smaller; infinite where one is not a number."""
+    """The ratio of the larger to the smaller of each pair; infinite where one is not a number."""
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.maximum(ours / theirs, theirs / ours)
     return np.where(ours == theirs, 1.0, np.nan_to_num(ratio, nan=np.inf))

@@ -1,4 +1,4 @@
-"""How a fall turns and bends a fiber, in numbers, and which of three regimes that is.
+"""Rotation and bending of a fiber over a fall, and which of three regimes they make.
 
 φ(s, t) is the inclination of the tangent, s the arclength from the centre in units of L, −½ ≤ s ≤ ½.
 
@@ -57,7 +57,7 @@ class Motion:
 
 
 def measure_motion(positions: History) -> Motion:
-    """What a fall in the xy-plane does to the fiber: ``positions`` (T, N, 3).
+    """Measure the rotation and bending of a fall in the xy-plane: ``positions`` (T, N, 3).
 
     Raises InputError for fewer than two samples or three beads.
     """

@@ -44,7 +44,7 @@ def ship(results: Path, into: Path, repository: Path) -> dict[str, Any]:
 
 
 def copy_model(results: Path, into: Path, manifest: dict[str, Any]) -> dict[str, Any]:
-    """What `ship` does with a run that it does not refuse; the card is written last."""
+    """Copy the model of a run that `ship` accepts; the card is written last."""
     card, weights = read_model_folder(results / MODEL, "forecast model")
     curve = (results / MODEL / CURVE).read_bytes()
     scales, hydrodynamics = card["autoencoder"]["scales"], read_terminal_curve(results / MODEL / CURVE).hydrodynamics
@@ -62,7 +62,7 @@ def copy_model(results: Path, into: Path, manifest: dict[str, Any]) -> dict[str,
 
 
 def measured_error(results: Path, model: str) -> dict[str, Any]:
-    """What the test sets say of a model: per set, and per ℬ with the angle of the worst trajectory."""
+    """A model's errors on the test sets: per set, and per ℬ with the angle of the worst trajectory."""
     by_B = read_csv(results / "tables/baselines.csv")
     by_B = by_B[by_B["model"] == model]
     falls = _falls(results, model, int(by_B["latent_dim"].iloc[0]))

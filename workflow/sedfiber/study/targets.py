@@ -1,10 +1,10 @@
-"""What the source claims and what this study asks of itself: one place for figures and tables."""
+"""The paper's claims and this study's targets, for figures and tables."""
 
-SOURCE_BOUND = 0.1  # the source's claim for the ensemble mean of E(t), any ℬ and any time
+SOURCE_BOUND = 0.1  # the paper's claim for the ensemble mean of E(t), any ℬ and any time
 SOURCE_FALLS = 227
 SOURCE_LATENT_DIM = 4
 
 ENSEMBLE_BARS = {"A": 1e-4, "B": 1e-3}  # of the ensemble mean at any ℬ and any time
-WORST_BARS = {"A": 5e-4, "B": 5e-3}  # of any trajectory at any time, at the source's latent dimension
-RECONSTRUCTION_BAR = 1e-4  # of the loss at the source's latent dimension, lengths in L/2
+WORST_BARS = {"A": 5e-4, "B": 5e-3}  # of any trajectory at any time, at the paper's latent dimension
+RECONSTRUCTION_BAR = 1e-4  # of the loss at the paper's latent dimension, lengths in L/2
 SIMULATION_BAR = 1e-4  # of a simulation's own error, over L

@@ -1,4 +1,4 @@
-"""What Snakemake measured of jobs that have run."""
+"""The seconds that Snakemake's benchmark files record."""
 
 from collections.abc import Iterable
 from pathlib import Path

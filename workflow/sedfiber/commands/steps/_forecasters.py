@@ -1,4 +1,4 @@
-"""What the steps read that judge several forecasters on several test splits."""
+"""The forecasts of several forecasters on several test splits."""
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path

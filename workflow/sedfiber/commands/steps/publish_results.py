@@ -11,7 +11,7 @@ def run(
     output: Path = Path("results/published"),
     repository: Path = Path(),  # the checkout that ran
 ) -> None:
-    """Refuse, or copy and say how much."""
+    """Copy the results and print how much, or fail where they are not those of this code."""
     files = publish(results, output, repository)
     size = sum(file.stat().st_size for file in files)
     print(f"published {len(files)} files, {size / 1e6:.1f} MB, in {output}; commit them")

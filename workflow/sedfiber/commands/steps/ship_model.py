@@ -12,7 +12,7 @@ def run(
     output: Path = SHIPPED,
     repository: Path = Path(),  # the checkout that ran
 ) -> None:
-    """Refuse, or copy and say what the model is worth."""
+    """Copy the model and print its largest errors, or fail where it is not of this code."""
     sets = ship(results, output, repository)["error"]["sets"]
     worst = ", ".join(f"{of_set['E_worst']:.2g} on set {name}" for name, of_set in sets.items())
     print(f"shipped a model whose largest E is {worst}, in {output}; commit it")

@@ -1,4 +1,4 @@
-"""``sedfiber tabulate_key_numbers``: this run, the source's claim and the bar, number by number."""
+"""``sedfiber tabulate_key_numbers``: this run, the paper's claim and the target, number by number."""
 
 from dataclasses import fields
 from pathlib import Path

@@ -50,7 +50,7 @@ def write_film(build: Callable[[], Film], path: Path) -> None:
 
 
 def _draw_frames(film: Film) -> list[Image.Image]:
-    """What stays is drawn once and copied back before each frame: nothing is laid out again."""
+    """Draw all frames; the background is drawn once and copied back before each."""
     canvas = FigureCanvasAgg(film.figure)
     for artist in film.moving:
         artist.set_animated(True)

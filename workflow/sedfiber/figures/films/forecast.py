@@ -60,7 +60,7 @@ class _CloseUp:
         axes.legend(handles=handles, labels=["true", "forecast"], loc="upper left", handletextpad=0.1)
 
     def show(self, sample: int) -> None:
-        """Both fibers at this sample."""
+        """Move both fibers to this sample."""
         for beads, shapes in zip(self._beads, self._shapes, strict=True):
             beads.show(shapes[sample])
 
@@ -82,7 +82,7 @@ class _Path:
         self._beads = truth.positions[..., :2], forecast.positions[..., :2]
 
     def show(self, sample: int) -> None:
-        """Both fibers at this sample."""
+        """Move both fibers to this sample."""
         for line, beads in zip(self.lines, self._beads, strict=True):
             line.set_data(*beads[sample].T)
 

@@ -1,4 +1,4 @@
-"""What every integrator has in common: it goes through equally spaced samples."""
+"""The base of all integrators: each yields equally spaced samples."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
@@ -26,7 +26,7 @@ class Tolerances:
 
 @dataclass
 class Counters:
-    """What an integration cost, in numbers that hold on any machine."""
+    """Counts of an integration's work, equal on every machine."""
 
     steps: int = 0
     rhs: int = 0

@@ -1,4 +1,4 @@
-"""The source's integrator: explicit Runge–Kutta 4(5) through ``scipy.integrate.ode``."""
+"""The paper's integrator: explicit Runge–Kutta 4(5) through ``scipy.integrate.ode``."""
 
 import warnings
 from collections.abc import Callable, Iterator

@@ -25,7 +25,7 @@ class Stuck(ArithmeticError):
 
 
 class LatentPath:
-    """The path from ``start`` (n,) at time 0, made as far as times are asked for; ``atol`` (n,).
+    """The path from ``start`` (n,) at time 0, made as far as the latest time asked; ``atol`` (n,).
 
     It goes beyond the last of them by a part of a step, so that a state does not depend on what
     else was asked.

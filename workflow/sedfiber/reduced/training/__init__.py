@@ -1,1 +1,1 @@
-"""How autoencoders and neural ODEs are trained."""
+"""Training of autoencoders and neural ODEs."""

@@ -1,4 +1,4 @@
-"""What the neural ODE is trained on: the encoded samples of all training trajectories."""
+"""The training data of the neural ODE: encoded samples of all training trajectories."""
 
 from dataclasses import dataclass
 

@@ -1,6 +1,6 @@
 """Every hyper-parameter of the reduced-order model: what it does and where it comes from.
 
-The source of the method gives no widths, activations or optimiser. Papers of the same
+The paper gives no widths, activations or optimiser. Papers of the same
 group use encoders 512:256 or 500:500, neural ODEs 200:200:200, Adam from 1e-3 to 1e-4 and
 a damping 0.1 std(h); `SourceNodeSettings` keeps to those where they apply. "Measured"
 means chosen on training data, with ℬ = 400 and 2000 or single even angles held out.
@@ -86,7 +86,7 @@ class NodeSettings:
 
 @dataclass(frozen=True)
 class SourceNodeSettings:
-    """The source's own recipe: one step τ, the loss as written, samples even in time."""
+    """The paper's own recipe: one step τ, the loss as written, samples even in time."""
 
     hidden: tuple[int, ...] = (200, 200)
     """Widths of the hidden layers: sibling papers have 200:200:200."""

@@ -1,4 +1,4 @@
-"""The source's own recipe for the neural ODE.
+"""The paper's own recipe for the neural ODE.
 
 One step τ through torchdiffeq from every stored sample, even in time, with the loss
 
@@ -33,7 +33,7 @@ def train_node_source(
     settings: SourceNodeSettings,
     progress: Progress = silent,
 ) -> NeuralOde:
-    """Train by the source's recipe; the same arguments give the same bytes.
+    """Train by the paper's recipe; the same arguments give the same bytes.
 
     Raises InputError for a trajectory that cannot be learned from, NumericalError when the
     training diverges; both name the trajectory.
@@ -74,7 +74,7 @@ def _fit(
     progress: Progress,
 ) -> None:
     generator = torch.Generator().manual_seed(seed)
-    name = f"neural ODE of the source, d = {node.latent_dim}"
+    name = f"neural ODE of the paper, d = {node.latent_dim}"
     descent = Descent(torch.optim.Adam(node.parameters()), names, name, progress)
     line = ProgressLine(name, settings.iterations, progress)
     for step in range(settings.iterations):

@@ -1,4 +1,4 @@
-"""What all trainings share: the optimiser, its learning-rate schedule, the guard and the progress line."""
+"""The optimiser, learning-rate schedule, guard and progress line of all trainings."""
 
 import math
 import time

@@ -82,7 +82,7 @@ class Vertical:
 
     @cached_property
     def states(self) -> list[SteadyState]:
-        """Those at the grid's ℬ."""
+        """The states at the grid's ℬ."""
         return [self.state(B) for B in self.grid]
 
     def state(self, B: float) -> SteadyState:
@@ -137,7 +137,7 @@ def _facing(point: CurvePoint, side: float) -> CurvePoint:
 
 
 def _pieces(curve: SteadyCurve, seed: CurvePoint, B_min: float, B_max: float) -> Iterator[list[CurvePoint]]:
-    """What lies between one fold and the next on the way from ``seed``, folds included, until ℬ leaves the range."""
+    """Yield the pieces of the curve between folds, from ``seed`` on, until ℬ leaves the range."""
     piece, last = [seed], seed
     for point in curve.follow(seed):
         if last.tangent[-1] * point.tangent[-1] < 0.0:

@@ -1,4 +1,4 @@
-"""How fast a small disturbance along one mode of a steady state grows in the full equations of motion."""
+"""Growth of a small disturbance along one mode of a steady state in the full equations of motion."""
 
 from dataclasses import replace
 

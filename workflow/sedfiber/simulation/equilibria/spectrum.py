@@ -83,7 +83,7 @@ def spectrum(scene: Scene, positions: Positions) -> Spectrum:
 
 
 def round_off(scene: Scene) -> float:
-    """What the rates of a scene carry of it, in U_s/a: the stiffest rate is of the size of the stiffest modulus."""
+    """Round-off in the rates of a scene, in U_s/a; the stiffest rate is of the size of the stiffest modulus."""
     return float(np.finfo(float).eps * scene.stiffening * scene.modulus)
 
 

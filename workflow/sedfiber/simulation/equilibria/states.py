@@ -1,4 +1,4 @@
-"""Where the model's own steady states are stable: a row for each state, and the ℬ at which that changes.
+"""Stability of the model's own steady states: a row for each state, and the ℬ at which it changes.
 
 A state is stable in the plane when all disturbances within its plane decay, and in volume when
 those across it decay too.  Each growth rate is an eigenvalue, and is measured a second time by

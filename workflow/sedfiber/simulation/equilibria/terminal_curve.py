@@ -103,7 +103,7 @@ def write_terminal_curve(curve: TerminalCurve, path: Path) -> None:
 
 
 def read_terminal_curve(path: Path) -> TerminalCurve:
-    """What `write_terminal_curve` wrote; raises InputError for anything else."""
+    """Read the file of `write_terminal_curve`; raises InputError for any other."""
     table, facts = read_table(path)
     if facts.get("kind") != "terminal curve":
         raise InputError(f"input: {str(path)!r} holds no terminal curve")

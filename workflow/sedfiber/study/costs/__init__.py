@@ -1,1 +1,1 @@
-"""What accuracy costs in time: each way to a trajectory, timed and judged."""
+"""The cost of accuracy: each way to a trajectory, timed and judged."""

@@ -1,4 +1,4 @@
-"""What to choose for an accuracy, and what it takes, from the tables that ``snakemake cost`` measured.
+"""Advice on the choice for an accuracy, with its cost, from the tables of ``snakemake cost``.
 
 Between two measured ℬ the larger error and the longer time of the two count; times are scaled by
 how long a right-hand side takes on this machine.
@@ -92,7 +92,7 @@ def _outside(question: Question, choices: pd.DataFrame) -> list[str]:
 
 
 def _training(chosen: Offer, fitting: list[Offer], question: Question) -> list[str]:
-    """With what it takes to train, and from how many trajectories on that is earned back."""
+    """Words on the training of the choice, and the number of trajectories that earns it back."""
     untrained = _cheapest(fitting, question, trained=False)
     lines = [f"training it first takes {_duration(chosen.preparation)} more"]
     simulations = [offer for offer in fitting if offer.family == SIMULATION]
@@ -106,7 +106,7 @@ def _training(chosen: Offer, fitting: list[Offer], question: Question) -> list[s
 
 
 def _models(offers: list[Offer], question: Question) -> list[str]:
-    """Why not a model: none is accurate enough, or none is faster."""
+    """Words on why no model is chosen: none is accurate enough, or none is faster."""
     models = [offer for offer in offers if offer.family == FORECAST]
     if not models:
         return []
@@ -116,7 +116,7 @@ def _models(offers: list[Offer], question: Question) -> list[str]:
 
 
 def _better(chosen: Offer, offers: list[Offer], question: Question) -> list[str]:
-    """What a tenth of the error would cost."""
+    """Words on the cost of a tenth of the error."""
     better = [offer for offer in offers if offer.error <= BETTER * question.error]
     if not better:
         return [f"a tenth of the error is beyond what was measured at B = {question.B:g}"]

@@ -12,7 +12,7 @@ TORCH = " (torch)"  # after the name of a model that is not in compiled code
 
 @dataclass(frozen=True)
 class Choice:
-    """What a user may choose: ``name`` within a ``family``, and its settings.
+    """A way to a trajectory: ``name`` within a ``family``, and its settings.
 
     ``tolerance`` is relative and absolute alike (NaN where there is none), ``batch`` the number of
     trajectories asked for at once, ``dimension`` the number of unknowns of a shape.
@@ -28,7 +28,7 @@ class Choice:
 
 @dataclass
 class Outcome:
-    """Of one choice, over the queries it was asked: arrays (R,) with NaN for a query that failed.
+    """The outcome of one choice over its queries: arrays (R,) with NaN for a query that failed.
 
     ``error`` is the largest root-mean-square bead distance over L, ``E`` the largest E(t); seconds
     are those of one trajectory; ``evaluations`` are right-hand sides of the fiber for a simulation,
@@ -73,7 +73,7 @@ class Outcomes:
         return list(self._found.values())
 
     def family(self, name: str) -> list[Outcome]:
-        """Those of one family."""
+        """The choices of one family."""
         return [outcome for choice, outcome in self._found.items() if choice.family == name]
 
     def _outcome(self, choice: Choice) -> Outcome:

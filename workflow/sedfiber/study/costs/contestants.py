@@ -1,6 +1,6 @@
 """The ways to an answer that are compared, each as a call that takes one query to bead positions.
 
-All are asked for every sample to the end of the fall, from ℬ and θ₀; what does not depend on
+Each gives every sample to the end of the fall, from ℬ and θ₀; what does not depend on
 them is made before: the compiled system of a simulation, a model's weights, the lookup's table.
 """
 

@@ -1,4 +1,4 @@
-"""What beads and hydrodynamics cost, and what they change: one fall of the study with few beads and with many."""
+"""Cost and effect of bead number and hydrodynamics: one fall of the study with few beads and with many."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -46,7 +46,7 @@ _STEP = 0.1  # a/U_s, in the Newton matrix I − h J: what it costs to factorise
 
 @dataclass(frozen=True)
 class _Rest:
-    """Where a fall ends: the terminal shape over L, or the last where there is none, (N, 3); speed in U_s."""
+    """The end of a fall: the terminal shape over L, or the last where there is none, (N, 3); speed in U_s."""
 
     fall: FallProblem
     shape: Positions
@@ -128,7 +128,7 @@ def _costs(rest: _Rest) -> dict[str, Any]:
 
 
 def _distances(n_beads: int, mobility: str, rests: dict[tuple[int, str], _Rest]) -> dict[str, float]:
-    """From the finest N of the same mobility, and from RPY at the same N; NaN where there is none."""
+    """Distances from the finest N of the same mobility, and from RPY at the same N; NaN where there is none."""
     own, rpy = rests.get((n_beads, mobility)), rests.get((n_beads, "RPY"))
     finest = max((rest for (_, name), rest in rests.items() if name == mobility), key=_beads, default=None)
     return {

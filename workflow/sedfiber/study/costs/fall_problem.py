@@ -40,7 +40,7 @@ class Integrated:
 
 @dataclass(frozen=True)
 class FallProblem:
-    """What is integrated: ``samples`` states of ``scene``, every ``interval`` a/U_s from its start."""
+    """The problem to integrate: ``samples`` states of ``scene``, every ``interval`` a/U_s from its start."""
 
     scene: Scene
     samples: int

@@ -55,7 +55,7 @@ class PodGalerkin:
         return jac
 
     def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
-        """As of the system."""
+        """The answer of the whole system."""
         return self._system.loss_of_definiteness(self._system.to_state(self._shapes(y)))
 
     def _shapes(self, states: State) -> Array:

@@ -23,7 +23,7 @@ from sedfiber.study.costs.timing import timed_run
 
 TOLERANCES = tuple(10.0**-k for k in range(2, 11))  # rtol, and atol in a
 LIMIT = 5.0  # s: a run that takes longer is left out
-SOURCE_LIMIT = 30.0  # s: the source's set-up goes as far through the fall as this
+SOURCE_LIMIT = 30.0  # s: the paper's set-up goes as far through the fall as this
 REFERENCE = 1e-12  # tolerance of the references
 _WRONG = 0.1  # of L: an error that no tolerance asks for
 _UNCOUNTED = dict.fromkeys((*COUNTED, "rhs_units"), float("nan"))
@@ -73,7 +73,7 @@ class _References:
         return cls(radau, others[apart.index(min(apart))], min(apart))
 
     def error(self, method: Method, fall: FallProblem, run: Integrated) -> float:
-        """Of a run, over the samples that it has; never measured against its own method."""
+        """The error of a run over its samples; never measured against its own method."""
         reference = self.other if method.name == "Radau" else self.radau
         return largest_distance(run.positions, reference[: len(run.positions)], fall.scene.length)
 
@@ -81,7 +81,7 @@ class _References:
 def _rows(
     method: Method, fall: FallProblem, references: _References, tolerances: tuple[float, ...], seconds: float
 ) -> Iterator[dict[str, Any]]:
-    """From the loosest tolerance on; once a run takes too long, tighter ones are not tried."""
+    """Rows from the loosest tolerance on; once a run takes too long, tighter ones are not tried."""
     too_long = None
     for tolerance in method.ladder(list(tolerances)):
         head = {"method": method.name, "jacobian": method.jacobian, "tolerance": tolerance}

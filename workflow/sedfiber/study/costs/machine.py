@@ -1,4 +1,4 @@
-"""What a time was taken on, and the unit by which it carries over to another machine."""
+"""The machine of a time, and the unit by which the time carries over to another machine."""
 
 import os
 import platform
@@ -46,7 +46,7 @@ def _right_hand_side() -> Callable[[], object]:
 
 
 def _version(package: str) -> str:
-    """Of what is installed; the package itself may be run from a checkout that is not."""
+    """The version of an installed package; sedfiber may run from a checkout that is not installed."""
     try:
         return version(package)
     except PackageNotFoundError:

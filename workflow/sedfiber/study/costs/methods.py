@@ -1,4 +1,4 @@
-"""The ways to integrate a fall that are compared: our integrators, SciPy's solvers, and the source's set-up."""
+"""The ways to integrate a fall that are compared: our integrators, SciPy's solvers, and the paper's set-up."""
 
 import time
 from collections.abc import Callable
@@ -59,7 +59,7 @@ class WithoutJacobian:
         return self._system.rhs_count
 
     def loss_of_definiteness(self, y: State) -> tuple[str, str] | None:
-        """As of the system."""
+        """The answer of the whole system."""
         return self._system.loss_of_definiteness(y)
 
 
@@ -97,7 +97,7 @@ def by_solve_ivp(
 
 
 def by_source_setup(fall: FallProblem, tolerance: float, seconds: float) -> Integrated:
-    """The source's set-up, as far through the fall as the seconds last; its tolerances are its own."""
+    """The paper's set-up, as far through the fall as the seconds last; its tolerances are its own."""
     run = source_setup.SourceSetup(fall.scene.modulus).run(fall.start_positions, fall.samples, fall.interval, seconds)
     return Integrated(run.positions, Counters(run.steps, run.rhs))
 

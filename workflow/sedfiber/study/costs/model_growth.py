@@ -1,4 +1,4 @@
-"""How the choice between simulation and forecast shifts with the number of beads.
+"""Simulation against forecast, with the number of beads.
 
 A forecast works with d numbers however many beads there are; only the writing of positions grows.
 For each N a small model is trained on a few falls, enough to time it, and asked a ℬ between.

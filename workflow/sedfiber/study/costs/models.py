@@ -1,4 +1,4 @@
-"""What a reduced model costs to train and to ask, against what it is worth."""
+"""Training time, time of a forecast and error of each reduced model."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""How a cost grows: ``seconds = prefactor · N^exponent``, by least squares in logarithms."""
+"""Growth of a cost: ``seconds = prefactor · N^exponent``, by least squares in logarithms."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

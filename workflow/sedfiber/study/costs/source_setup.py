@@ -1,4 +1,4 @@
-"""The source's set-up, as a reader of its text would write it in NumPy: the yardstick of what it costs.
+"""The paper's set-up, as a reader of its text would write it in NumPy: the yardstick of what it costs.
 
 N beads in three dimensions with absolute positions X (N, 3), 3N unknowns,
 
@@ -6,7 +6,7 @@ N beads in three dimensions with absolute positions X (N, 3), 3N unknowns,
     M_ij = (3/4r + 1/2r³) I + (3/4r − 3/2r³) r̂ r̂ᵀ,    M_ii = I,
 
 the mobility as a full (3N, 3N) matrix, and ``scipy.integrate.ode('dopri5')`` called once for each
-sample.  The source states no tolerances: they are SciPy's own (rtol 1e-6, atol 1e-12), and so
+sample.  The paper states no tolerances: they are SciPy's own (rtol 1e-6, atol 1e-12), and so
 are all other settings.  With these a call gives up after 500 steps; it is then made again from
 where it stopped, as often as the sample needs.  The equations are those of ``physics``; nothing
 is shared with it.

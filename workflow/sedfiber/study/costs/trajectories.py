@@ -1,4 +1,4 @@
-"""What every fall of the study takes with the default integrator."""
+"""Error and time of every fall of the study with the default integrator."""
 
 import time
 from collections.abc import Iterable, Iterator

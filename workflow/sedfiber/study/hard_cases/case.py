@@ -1,4 +1,4 @@
-"""What a hard case is: why it is hard, what counts as right, against what, and where it is measured."""
+"""A hard case: why it is hard, its criterion, its reference, and the function that measures it."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -51,7 +51,7 @@ class HardCase:
 
 
 def must_refuse(what: str, action: Callable[[], object], *words: str) -> Measurement:
-    """Right (0) when ``action`` is refused in one line that holds all ``words``; the note is that line."""
+    """Right (0) when ``action`` raises an error of one line with all ``words``; the note is that line."""
     try:
         action()
     except SedfiberError as error:

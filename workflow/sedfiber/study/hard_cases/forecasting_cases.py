@@ -22,7 +22,7 @@ from sedfiber.study.hard_cases.case import Measurement, must_refuse, yes_or_no
 TIMES = 10.0  # settling times
 SAMPLES = 400
 ROUNDED = 1e-4  # L: what rounding may do to a forecast in float32
-ACCURATE = 1e-2  # L: what is asked of the forecasts themselves, E = 1e-4
+ACCURATE = 1e-2  # L: the target of the forecasts themselves, E = 1e-4
 BELOW, ABOVE = (0.1, 0.5), (2.0, 4.0)  # ℬ over the ends of the training range
 STEEP = (math.pi / 2, 1.7, 3.0, -math.pi)  # θ₀: upright, and turned by more than that
 REACH = "largest distance of a bead from the centre bead, L"

@@ -36,7 +36,7 @@ def _truth(B: float, k: int) -> Trajectory:
 
 
 def _error_in_tolerances(name: str, tolerance: float, run: tuple[float, int], truth: Trajectory) -> float | None:
-    """Largest distance from the truth over L and the tolerance; None where the run is refused."""
+    """Largest distance from the truth over L and the tolerance; None where the run ends with an error."""
     scene = Scene(run[0], angle_of(run[1]))
     end = EXPLICIT_END if name == "dopri5" and run[0] <= 100.0 else float(truth.t[-1])
     try:
@@ -47,7 +47,7 @@ def _error_in_tolerances(name: str, tolerance: float, run: tuple[float, int], tr
 
 
 def explicit_on_a_stiff_fiber() -> Iterable[Measurement]:
-    """The source's explicit method at ℬ = 100, at its own sampling and at a coarser one."""
+    """The paper's explicit method at ℬ = 100, at its own sampling and at a coarser one."""
     scene = Scene(100.0, angle_of(22))
     truth = simulate(scene, Numerics("Radau", 1e-10, 1e-10), 40.0)
     run = simulate(scene, Numerics("dopri5"), truth.t[-1])

@@ -120,7 +120,7 @@ def _named(training: Dataset, spoilt: SettlingFall) -> Iterable[Measurement]:
     trainings: dict[str, Callable[[], object]] = {
         "autoencoder": partial(train_autoencoder, training, "decoder", 2, 0, AUTOENCODER),
         "neural ODE": partial(train_node, training, _autoencoder(), 0, NODE),
-        "neural ODE of the source": partial(train_node_source, training, _autoencoder(), 0, SOURCE),
+        "neural ODE of the paper": partial(train_node_source, training, _autoencoder(), 0, SOURCE),
     }
     for name, train in trainings.items():
         yield must_refuse(f"{name}: refused in one line that names the trajectory", train, spoilt.name)
