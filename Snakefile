@@ -66,4 +66,13 @@ rule all:
         rules.tabulate_timings.output,
         rules.write_manifest.output,
         rules.show_manifest.output,
-        expand("results/report/{table}.html", table=STUDY_TABLES),
+        expand("results/report/{table}.html", table=TABLES),
+
+
+# Every job has a log. Its time stands under the same name, and conda, where a user asks for it, makes
+# one environment for all.
+for job in workflow.rules:
+    for log in job.log:
+        job.benchmark_modifier = workflow.modifier.path_modifier  # as for a directive of the rule
+        job.benchmark = log.replace("results/logs/", "results/benchmarks/").replace(".log", ".tsv")
+        job.conda_env = str(BASE / "envs/environment.yaml")

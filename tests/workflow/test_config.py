@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from sedfiber.commands.cli import STEPS
 from sedfiber.reduced.training.settings import AutoencoderSettings, NodeSettings, SourceNodeSettings
 from sedfiber.study.code_fingerprint import PACKAGE, command_module, module_sources
 from sedfiber.study.hard_cases.listing import CASES
@@ -91,16 +92,19 @@ def test_the_studys_config_states_every_hyper_parameter():
         assert set(section) == {field.name for field in fields(kind)}
 
 
-@pytest.mark.parametrize("path", sorted(REPOSITORY.glob("envs/*.yaml")), ids=lambda path: path.stem)
-def test_conda_environments_agree_with_the_lock_file(path):
-    """Each pinned package of an environment has the version of the lock; torch that of pyproject."""
+def _environment() -> dict[str, str]:
+    """Packages and versions of the conda environment."""
+    environment = yaml.safe_load((REPOSITORY / "envs/environment.yaml").read_text())
+    return dict(package.split("==") for package in environment["dependencies"][-1]["pip"])
+
+
+def test_the_conda_environment_agrees_with_the_lock_file():
+    """Each package has the version of the lock; torch that of pyproject."""
     lock = (REPOSITORY / "envs/requirements.lock").read_text()
     pinned = dict(re.findall(r"^([A-Za-z0-9_.-]+)==([^ \\\n]+)", lock, re.MULTILINE))
     pinned["torch"] = re.search(r'"torch==([^"]+)"', (REPOSITORY / "pyproject.toml").read_text())[1]
-    packages = yaml.safe_load(path.read_text())["dependencies"][-1]["pip"]
-    for package in packages:
-        name, _, version = package.partition("==")
-        assert version == pinned[name], f"{path.name} has {package}, the lock {pinned[name]}"
+    for name, version in _environment().items():
+        assert version == pinned[name]
 
 
 def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
@@ -115,39 +119,18 @@ def test_a_command_depends_on_what_it_imports_and_on_nothing_else():
 
 FIGURES = yaml.safe_load((REPOSITORY / "workflow/report/figures.yaml").read_text(encoding="utf-8"))
 # the modules that a command imports by name when it runs
-BY_NAME = {
-    "measure_hard_case": [f"study.hard_cases.{case.module}" for case in CASES],
-    "draw": [f"figures.{about.get('module', name)}" for name, about in FIGURES.items()],
-}
+BY_NAME = [f"study.hard_cases.{case.module}" for case in CASES]
+BY_NAME += [f"figures.{about.get('module', name)}" for name, about in FIGURES.items()]
 # where the import's name is not the package's
 OUTSIDE = {"pytorch_optimizer": "pytorch-optimizer", "yaml": "pyyaml", "PIL": "pillow"}
 
 
-@pytest.mark.parametrize(
-    ("environment", "commands"),
-    [
-        ("simulate", ["simulate", "solve_terminal_shapes", "solve_terminal_curve", "check_simulation"]),
-        ("analysis", ["aggregate_dataset", "tabulate_trajectories", "tabulate_timings", "write_manifest"]),
-        ("analysis", ["tabulate_audit", "compare_third_dimension", "measure_effects", "benchmark_parts"]),
-        ("analysis", ["trace_states", "tabulate_hard_cases", "tabulate_costs"]),
-        ("analysis", ["measure_integrators", "measure_trajectories", "measure_discretisation"]),
-        ("learning", ["measure_choices", "measure_models", "measure_model_growth"]),
-        ("learning", ["train_autoencoder", "train_node", "forecast_test_set", "tabulate_forecast_errors"]),
-        ("learning", ["measure_hard_case"]),
-        ("learning", ["tabulate_lags"]),
-        ("analysis", ["tabulate_regimes", "tabulate_key_numbers", "show_table", "show_manifest", "compare_published"]),
-        ("figures", ["draw", "film_forecast", "film_scene", "make_explorer"]),
-    ],
-)
-def test_conda_environments_hold_what_their_commands_import(environment, commands):
-    """Every package outside the standard library that a command's modules import."""
-    listed = yaml.safe_load((REPOSITORY / f"envs/{environment}.yaml").read_text())["dependencies"][-1]["pip"]
-    available = {package.partition("==")[0] for package in listed}
-    for command in commands:
-        modules = [command_module(command), *BY_NAME.get(command, [])]
-        for path in {path for module in modules for path in module_sources(module)}:
-            foreign = {OUTSIDE.get(name, name) for name in _imported(path) - set(sys.stdlib_module_names)}
-            assert foreign - {"sedfiber"} <= available, f"{path.name} of {command}"
+def test_the_conda_environment_holds_what_the_commands_import():
+    """Every package outside the standard library that a module of a step, or of simulate, imports."""
+    modules = [command_module(command) for command in ("simulate", *STEPS)] + BY_NAME
+    for path in {path for module in modules for path in module_sources(module)}:
+        foreign = {OUTSIDE.get(name, name) for name in _imported(path) - set(sys.stdlib_module_names)}
+        assert foreign - {"sedfiber"} <= set(_environment()), path.name
 
 
 def _imported(path: Path) -> set[str]:

@@ -8,12 +8,8 @@ rule train_autoencoder:
         model_files("results/models/autoencoders/{variant}_d{dim}_s{seed}"),
     log:
         "results/logs/train_autoencoder/{variant}_d{dim}_s{seed}.log",
-    benchmark:
-        "results/benchmarks/train_autoencoder/{variant}_d{dim}_s{seed}.tsv"
     group:
         "autoencoders"
-    conda:
-        "../../envs/learning.yaml"
     resources:
         mem_mb=2000,
         runtime=20,
@@ -35,10 +31,6 @@ rule tabulate_reconstruction:
         "results/tables/reconstruction.csv",
     log:
         "results/logs/tabulate_reconstruction.log",
-    benchmark:
-        "results/benchmarks/tabulate_reconstruction.tsv"
-    conda:
-        "../../envs/learning.yaml"
     resources:
         mem_mb=4000,
     params:

@@ -7,10 +7,6 @@ rule measure_integrators:
         "results/costs/integrators/B{B}_k{k}.csv",
     log:
         "results/logs/measure_integrators/B{B}_k{k}.log",
-    benchmark:
-        "results/benchmarks/measure_integrators/B{B}_k{k}.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     threads: EVERY_CORE
     params:
         code=code_of("measure_integrators"),
@@ -26,12 +22,8 @@ rule tabulate_costs:
         "results/tables/cost_{table}.csv",
     log:
         "results/logs/tabulate_costs/{table}.log",
-    benchmark:
-        "results/benchmarks/tabulate_costs/{table}.tsv"
     wildcard_constraints:
         table="integrators|model_growth",
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("tabulate_costs"),
     shell:
@@ -43,10 +35,6 @@ rule measure_trajectories:
         "results/tables/cost_trajectories.csv",
     log:
         "results/logs/measure_trajectories.log",
-    benchmark:
-        "results/benchmarks/measure_trajectories.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     threads: EVERY_CORE
     params:
         code=code_of("measure_trajectories"),
@@ -61,10 +49,6 @@ rule measure_discretisation:
         growth="results/tables/cost_growth.csv",
     log:
         "results/logs/measure_discretisation.log",
-    benchmark:
-        "results/benchmarks/measure_discretisation.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     threads: EVERY_CORE
     resources:
         mem_mb=2000,
@@ -87,8 +71,6 @@ use rule train_node as train_short_node with:
         model_files("results/models/short/{variant}_d{dim}_s{seed}"),
     log:
         "results/logs/train_short_node/{variant}_d{dim}_s{seed}.log",
-    benchmark:
-        "results/benchmarks/train_short_node/{variant}_d{dim}_s{seed}.tsv"
     params:
         code=code_of("train_node"),
         autoencoder=short_autoencoder,
@@ -106,10 +88,6 @@ rule measure_models:
         "results/tables/cost_models.csv",
     log:
         "results/logs/measure_models.log",
-    benchmark:
-        "results/benchmarks/measure_models.tsv"
-    conda:
-        "../../envs/learning.yaml"
     threads: EVERY_CORE
     resources:
         mem_mb=2000,
@@ -132,10 +110,6 @@ rule measure_choices:
         at_each_B="results/tables/cost_choices.csv",
     log:
         "results/logs/measure_choices.log",
-    benchmark:
-        "results/benchmarks/measure_choices.tsv"
-    conda:
-        "../../envs/learning.yaml"
     threads: EVERY_CORE
     resources:
         mem_mb=3000,
@@ -160,12 +134,8 @@ rule measure_model_growth:
         "results/costs/model_growth/N{n_beads}.csv",
     log:
         "results/logs/measure_model_growth/N{n_beads}.log",
-    benchmark:
-        "results/benchmarks/measure_model_growth/N{n_beads}.tsv"
     wildcard_constraints:
         n_beads=r"\d+",
-    conda:
-        "../../envs/learning.yaml"
     threads: EVERY_CORE
     resources:
         mem_mb=3000,

@@ -7,10 +7,6 @@ rule solve_terminal_shapes:
         "results/terminal_shapes/{split}.parquet",
     log:
         "results/logs/solve_terminal_shapes/{split}.log",
-    benchmark:
-        "results/benchmarks/solve_terminal_shapes/{split}.tsv"
-    conda:
-        "../../envs/simulate.yaml"
     params:
         code=code_of("solve_terminal_shapes"),
         settings=lambda wildcards: as_json(STUDY.terminal_shapes_settings(wildcards.split)),
@@ -23,10 +19,6 @@ rule solve_terminal_curve:
         "results/terminal_shapes/terminal_curve.parquet",
     log:
         "results/logs/solve_terminal_curve.log",
-    benchmark:
-        "results/benchmarks/solve_terminal_curve.tsv"
-    conda:
-        "../../envs/simulate.yaml"
     params:
         code=code_of("solve_terminal_curve"),
         settings=as_json(STUDY.terminal_curve_settings),
@@ -41,10 +33,6 @@ rule aggregate_dataset:
         "results/dataset/{split}.parquet",
     log:
         "results/logs/aggregate_dataset/{split}.log",
-    benchmark:
-        "results/benchmarks/aggregate_dataset/{split}.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -61,10 +49,6 @@ rule tabulate_regimes:
         "results/tables/regimes.csv",
     log:
         "results/logs/tabulate_regimes.log",
-    benchmark:
-        "results/benchmarks/tabulate_regimes.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     resources:
         mem_mb=2000,
     params:

@@ -13,10 +13,6 @@ rule tabulate_forecast_errors:
         "results/tables/baselines.csv",
     log:
         "results/logs/tabulate_forecast_errors.log",
-    benchmark:
-        "results/benchmarks/tabulate_forecast_errors.tsv"
-    conda:
-        "../../envs/learning.yaml"
     resources:
         mem_mb=6000,
     params:
@@ -33,8 +29,6 @@ use rule tabulate_forecast_errors as tabulate_lags with:
         "results/tables/lags.csv",
     log:
         "results/logs/tabulate_lags.log",
-    benchmark:
-        "results/benchmarks/tabulate_lags.tsv"
     params:
         code=code_of("tabulate_lags"),
         step="tabulate_lags",

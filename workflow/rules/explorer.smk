@@ -13,10 +13,6 @@ rule make_explorer:
         "results/explorer.html",
     log:
         "results/logs/make_explorer.log",
-    benchmark:
-        "results/benchmarks/make_explorer.tsv"
-    conda:
-        "../../envs/figures.yaml"
     params:
         code=code_of("make_explorer"),
         model=lambda wildcards, input: Path(input.model[0]).parent,

@@ -11,12 +11,8 @@ for name, about in FIGURES.items():
             **drawn(about),
         log:
             f"results/logs/draw/{about['file']}.log",
-        benchmark:
-            f"results/benchmarks/draw/{about['file']}.tsv"
         group:
             "figures"
-        conda:
-            "../../envs/figures.yaml"
         resources:
             mem_mb=1000,
             runtime=5,

@@ -9,12 +9,8 @@ rule film_forecast:
         "results/films/{split}/B{B}_k{k}.webp",
     log:
         "results/logs/film_forecast/{split}_B{B}_k{k}.log",
-    benchmark:
-        "results/benchmarks/film_forecast/{split}_B{B}_k{k}.tsv"
     group:
         "films"
-    conda:
-        "../../envs/figures.yaml"
     params:
         code=code_of("film_forecast"),
         settings=lambda wildcards: as_json({"B": wildcards.B, "angle_index": wildcards.k}),
@@ -30,12 +26,8 @@ rule film_scene:
         "results/films/scenes/{scene}.webp",
     log:
         "results/logs/film_scene/{scene}.log",
-    benchmark:
-        "results/benchmarks/film_scene/{scene}.tsv"
     group:
         "films"
-    conda:
-        "../../envs/figures.yaml"
     params:
         code=code_of("film_scene"),
         settings=lambda wildcards: as_json({"title": wildcards.scene.replace("_", " ")}),

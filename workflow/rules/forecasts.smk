@@ -9,10 +9,6 @@ rule forecast_test_set:
         "results/forecasts/{model}/{split}.parquet",
     log:
         "results/logs/forecast_test_set/{model}_{split}.log",
-    benchmark:
-        "results/benchmarks/forecast_test_set/{model}_{split}.tsv"
-    conda:
-        "../../envs/learning.yaml"
     resources:
         mem_mb=4000,
     params:
@@ -30,10 +26,6 @@ rule forecast_by_lookup:
         "results/forecasts/lookup/{split}.parquet",
     log:
         "results/logs/forecast_by_lookup/{split}.log",
-    benchmark:
-        "results/benchmarks/forecast_by_lookup/{split}.tsv"
-    conda:
-        "../../envs/learning.yaml"
     resources:
         mem_mb=4000,
     params:

@@ -9,10 +9,6 @@ rule measure_hard_case:
         "results/hard_cases/{case}.csv",
     log:
         "results/logs/measure_hard_case/{case}.log",
-    benchmark:
-        "results/benchmarks/measure_hard_case/{case}.tsv"
-    conda:
-        "../../envs/learning.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -29,10 +25,6 @@ rule tabulate_hard_cases:
         "results/tables/hard_cases.csv",
     log:
         "results/logs/tabulate_hard_cases.log",
-    benchmark:
-        "results/benchmarks/tabulate_hard_cases.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("tabulate_hard_cases"),
     shell:

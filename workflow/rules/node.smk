@@ -9,10 +9,6 @@ rule train_node:
         model_files("results/models/node/{model}"),
     log:
         "results/logs/train_node/{model}.log",
-    benchmark:
-        "results/benchmarks/train_node/{model}.tsv"
-    conda:
-        "../../envs/learning.yaml"
     resources:
         mem_mb=3000,
         runtime=60,
@@ -35,10 +31,6 @@ rule choose_forecast_model:
         "results/models/forecast/terminal_curve.parquet",
     log:
         "results/logs/choose_forecast_model.log",
-    benchmark:
-        "results/benchmarks/choose_forecast_model.tsv"
-    conda:
-        "../../envs/learning.yaml"
     shell:
         "cp {input} results/models/forecast/ > {log} 2>&1"
 

@@ -8,13 +8,9 @@ rule tabulate_timings:
         "results/tables/timings.csv",
     log:
         "results/logs/tabulate_timings.log",
-    benchmark:
-        "results/benchmarks/tabulate_timings.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("tabulate_timings"),
-        benchmarks=benchmarks(),
+        benchmarks=lambda wildcards: benchmarks(),
     shell:
         "sedfiber tabulate_timings {params.benchmarks} -o {output} > {log} 2>&1"
 
@@ -28,10 +24,6 @@ rule write_manifest:
         "results/manifest.json",
     log:
         "results/logs/write_manifest.log",
-    benchmark:
-        "results/benchmarks/write_manifest.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("write_manifest"),
         settings=as_json({"config": config, "commit": commit()}),

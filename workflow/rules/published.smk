@@ -9,10 +9,6 @@ rule compare_published:
         "results/tables/published_comparison.csv",
     log:
         "results/logs/compare_published.log",
-    benchmark:
-        "results/benchmarks/compare_published.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("compare_published"),
         fresh=lambda wildcards, input: Path(input.fresh[0]).parent,

@@ -12,10 +12,6 @@ rule tabulate_key_numbers:
         "results/tables/key_numbers.csv",
     log:
         "results/logs/tabulate_key_numbers.log",
-    benchmark:
-        "results/benchmarks/tabulate_key_numbers.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("tabulate_key_numbers"),
         settings=as_json(STUDY.key_numbers_settings),
@@ -29,20 +25,17 @@ rule show_table:
     output:
         report(
             "results/report/{table}.html",
-            caption="../report/tables.rst",
+            caption="../report/caption.rst",
             category=shown_in,
             labels={"table": "{table}"},
         ),
     log:
         "results/logs/show_table/{table}.log",
-    benchmark:
-        "results/benchmarks/show_table/{table}.tsv"
     group:
         "pages"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("show_table"),
+        caption=lambda wildcards, output: TABLES[wildcards.table],
     shell:
         "sedfiber show_table {input.table} -o {output} > {log} 2>&1"
 
@@ -59,10 +52,6 @@ rule show_manifest:
         ),
     log:
         "results/logs/show_manifest.log",
-    benchmark:
-        "results/benchmarks/show_manifest.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("show_manifest"),
     shell:

@@ -33,21 +33,7 @@ KEY_NUMBERS = "0. Key numbers"
 TABLES_CATEGORY = "4. Tables"
 PROVENANCE = "5. Provenance"
 
-# The tables that `all` makes.
-STUDY_TABLES = [
-    "key_numbers",
-    "trajectories",
-    "audit",
-    "regimes",
-    "reconstruction",
-    "forecast_errors",
-    "forecast_errors_source_recipe",
-    "forecast_errors_lookup",
-    "ensemble_errors",
-    "baselines",
-    "lags",
-    "timings",
-]
+TABLES = yaml.safe_load((BASE / "workflow/report/tables.yaml").read_text(encoding="utf-8"))
 PUBLISHED_TABLES = list(dict.fromkeys(one.table for one in COMPARED))
 
 
@@ -55,7 +41,7 @@ def drawn(about):
     """The two files of a figure, the SVG with caption, category and labels for the report."""
     shown = report(
         f"results/figures/{about['file']}.svg",
-        caption="../report/figure.rst",
+        caption="../report/caption.rst",
         category=about["category"],
         labels={"figure": figure_label(about)},
     )
@@ -63,7 +49,7 @@ def drawn(about):
 
 
 def caption_of(about):
-    """For figure.rst. Snakemake compares no value that it makes from outputs: a reworded caption redraws nothing."""
+    """For caption.rst. Snakemake compares no value that it makes from outputs: a reworded caption redraws nothing."""
     return lambda wildcards, output: about["caption"]
 
 

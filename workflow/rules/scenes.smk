@@ -8,10 +8,6 @@ rule simulate_scene:
         "results/scenes/{scene}.parquet",
     log:
         "results/logs/simulate_scene/{scene}.log",
-    benchmark:
-        "results/benchmarks/simulate_scene/{scene}.tsv"
-    conda:
-        "../../envs/simulate.yaml"
     params:
         code=code_of("simulate"),
         file=lambda wildcards: scene_files(wildcards.scene)[0],
@@ -26,8 +22,6 @@ use rule tabulate_audit as tabulate_scene_audit with:
         "results/tables/scene_audit.csv",
     log:
         "results/logs/tabulate_scene_audit.log",
-    benchmark:
-        "results/benchmarks/tabulate_scene_audit.tsv"
 
 
 rule scenes:
@@ -42,10 +36,6 @@ rule compare_third_dimension:
         growth="results/tables/third_dimension_growth.csv",
     log:
         "results/logs/compare_third_dimension.log",
-    benchmark:
-        "results/benchmarks/compare_third_dimension.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("compare_third_dimension"),
         settings=as_json(STUDY.fiber | config["third_dimension"]),
@@ -64,10 +54,6 @@ rule measure_effects:
         "results/tables/effects.csv",
     log:
         "results/logs/measure_effects.log",
-    benchmark:
-        "results/benchmarks/measure_effects.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("measure_effects"),
         settings=as_json(STUDY.fiber | config["effects"]),
@@ -80,10 +66,6 @@ rule benchmark_parts:
         "results/tables/parts_against_fused_kernel.csv",
     log:
         "results/logs/benchmark_parts.log",
-    benchmark:
-        "results/benchmarks/benchmark_parts.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("benchmark_parts"),
     shell:

@@ -6,12 +6,8 @@ rule simulate:
         "results/trajectories/B{B}_k{k}.parquet",
     log:
         "results/logs/simulate/B{B}_k{k}.log",
-    benchmark:
-        "results/benchmarks/simulate/B{B}_k{k}.tsv"
     group:
         "simulations"
-    conda:
-        "../../envs/simulate.yaml"
     params:
         code=code_of("simulate"),
         options=SIMULATE_OPTIONS,
@@ -27,10 +23,6 @@ rule tabulate_trajectories:
         "results/tables/trajectories.csv",
     log:
         "results/logs/tabulate_trajectories.log",
-    benchmark:
-        "results/benchmarks/tabulate_trajectories.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     resources:
         mem_mb=2000,
     params:
@@ -47,10 +39,6 @@ rule tabulate_audit:
         "results/tables/audit.csv",
     log:
         "results/logs/tabulate_audit.log",
-    benchmark:
-        "results/benchmarks/tabulate_audit.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("tabulate_audit"),
     shell:
@@ -71,12 +59,8 @@ rule check_simulation:
         "results/checks/B{B}_k{k}.json",
     log:
         "results/logs/check_simulation/B{B}_k{k}.log",
-    benchmark:
-        "results/benchmarks/check_simulation/B{B}_k{k}.tsv"
     group:
         "checks"
-    conda:
-        "../../envs/simulate.yaml"
     params:
         code=code_of("check_simulation"),
         settings=as_json(config["check"]),
@@ -91,10 +75,6 @@ rule tabulate_checks:
         "results/tables/simulation_checks.csv",
     log:
         "results/logs/tabulate_checks.log",
-    benchmark:
-        "results/benchmarks/tabulate_checks.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("tabulate_checks"),
     shell:

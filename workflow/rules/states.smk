@@ -7,10 +7,6 @@ rule trace_states:
         thresholds="results/tables/state_thresholds.csv",
     log:
         "results/logs/trace_states.log",
-    benchmark:
-        "results/benchmarks/trace_states.tsv"
-    conda:
-        "../../envs/analysis.yaml"
     params:
         code=code_of("trace_states"),
         settings=as_json(STUDY.fiber | config["states"]),
