@@ -56,7 +56,7 @@ def displacements(system, x, temperature, n, seed, step=SHORT):
 class LinearMotion:
     """``ẋ = −M K x`` with constant symmetric matrices: what the integrator asks of a system, and of its mobility."""
 
-    placed = False
+    needs_lab_frame = False
 
     def __init__(self, mobility, stiffness):
         self.m, self.k = mobility, stiffness

@@ -85,8 +85,10 @@ def integrated(theta, interval, count, n_beads=N_BEADS, with_couple=True, flow="
     modulus = 24.0 * n_beads**3
     flow = LinearFlow(named_gradient(flow, RATE))
     forces, mobility = [Stretching(modulus), Bending(modulus)], PairMobility("RPY", 2)
-    drives, flows = ([FlowCouple(flow, n_beads)], [flow, CoupleFlow(flow, n_beads)]) if with_couple else ([], [flow])
-    system = System(forces, mobility, n_beads, 2, drives=drives, flows=flows)
+    nonconservative, flows = (
+        ([FlowCouple(flow, n_beads)], [flow, CoupleFlow(flow, n_beads)]) if with_couple else ([], [flow])
+    )
+    system = System(forces, mobility, n_beads, 2, nonconservative=nonconservative, flows=flows)
     integrator = INTEGRATORS["LSODA"](system, Tolerances(1e-7, 1e-7))  # smaller ones drown in round-off at N = 31
     states = integrator.states(system.to_state(turned(n_beads, theta)), interval)
     return system.to_positions(np.array(list(itertools.islice(states, count))))[..., :2]

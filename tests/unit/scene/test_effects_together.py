@@ -137,15 +137,15 @@ def test_a_state_moves_as_its_positions_do(systems, name):
     rows = system.rhs(0.0, system.to_state(x))
     u = rows[:-1].reshape(x.shape) + rows[:-1].reshape(x.shape)[system.centre]
     u[system.centre] = rows[:-1].reshape(x.shape)[system.centre]
-    force, drives = system.force(x), np.zeros_like(x)
-    for part in system.drives:
-        part.add_force(x, drives)
+    force, nonconservative = system.force(x), np.zeros_like(x)
+    for part in system.nonconservative:
+        part.add_force(x, nonconservative)
     carried = np.zeros_like(x)
     for flow in system.flows:
         flow.add_velocity(x, carried)
     expected = (system.mobility.matrix(x) @ force.ravel()).reshape(x.shape) + carried
     assert_allclose(u, expected, rtol=0, atol=1e-12 * scale(system, x))
-    power = ((force - drives) * expected).sum()
+    power = ((force - nonconservative) * expected).sum()
     assert rows[-1] == pytest.approx(power, rel=1e-11, abs=1e-10 * scale(system, x))
 
 

@@ -231,8 +231,8 @@ def test_calls_are_as_many_as_the_page_says(effects):
     """A right-hand side calls the method once, a Jacobian once and twice per coordinate."""
     own = effects("analytic.py", "Well")
     system = assemble(Scene(1000, 0.5, 5, own=[own, effects("analytic.py", "Weight")]))
-    counted, calls = system.drives[0], []
-    assert [type(part).__name__ for part in (*system.drives, system.forces[-1])] == ["OwnForce"] * 2
+    counted, calls = system.nonconservative[0], []
+    assert [type(part).__name__ for part in (*system.nonconservative, system.forces[-1])] == ["OwnForce"] * 2
     function = counted._function
     counted._function = lambda x: calls.append(1) or function(x)
     y = system.to_state(bent_chain(1, 5, 2))

@@ -1,4 +1,4 @@
-"""The key numbers are those of the tables, with the paper's claim and the bar beside them."""
+"""The key numbers are those of the tables, with the paper's claim and the target beside them."""
 
 import pandas as pd
 import pytest
@@ -71,14 +71,14 @@ def test_numbers_are_those_of_the_tables():
 
 
 @pytest.mark.parametrize(("ensemble", "met", "least"), [(5e-4, "yes", 2), (5e-3, "no", 4)])
-def test_the_least_dimension_is_the_first_that_meets_its_bars(ensemble, met, least):
-    """Both sets have to; the bar on set B is 1e-3."""
+def test_the_least_dimension_is_the_first_that_meets_its_targets(ensemble, met, least):
+    """Both sets have to; the target on set B is 1e-3."""
     found = numbers(ensemble_d2_B=ensemble)
     assert found.loc["ensemble_ours_d2_B", "met"] == met
     assert found.loc["least_latent_dim", "this_run"] == least
 
 
-def test_bars_are_asked_of_this_studys_recipe_alone():
+def test_targets_are_those_of_this_studys_recipe_alone():
     """The paper's recipe and the lookup are shown, not judged; the worst trajectory counts at d = 4."""
     found = numbers()
     assert found.loc["ensemble_ours_d4_A", "bar"] == 1e-4 and found.loc["worst_ours_d4_B", "bar"] == 5e-3

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from sedfiber.figures.model_legend import LegendEntry, legend_entries
 from sedfiber.figures.style import B_SYMBOL, BLACK, GREY, PAGE_WIDTH, SET_TITLES, letter_panel, place_legend
 from sedfiber.figures.table_input import in_set, select_columns
-from sedfiber.study.targets import WORST_BARS
+from sedfiber.study.targets import WORST_TARGETS
 
 GROUP_HEIGHT = 0.75  # share of the distance between two ℬ that is taken by the forecasters' rows
 
@@ -25,11 +25,11 @@ def draw(table: pd.DataFrame) -> Figure:
         letter_panel(axes, letter, title)
         _draw_set(axes, in_set(rows, test_set), shown)
         axes.axvline(
-            WORST_BARS[test_set],
+            WORST_TARGETS[test_set],
             color=BLACK,
             linestyle=(0, (2, 2)),
             linewidth=1.0,
-            label="bar for the worst, d = 4",
+            label="target for the worst, d = 4",
             zorder=1.5,
         )
         axes.set(xscale="log", xlabel="largest E(t) of a trajectory")

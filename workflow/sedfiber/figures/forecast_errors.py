@@ -24,7 +24,7 @@ from sedfiber.figures.style import (
     set_plain_ticks,
 )
 from sedfiber.figures.table_input import in_set, select_columns
-from sedfiber.study.targets import ENSEMBLE_BARS, SOURCE_BOUND
+from sedfiber.study.targets import ENSEMBLE_TARGETS, PAPER_BOUND
 
 ALL = "all"  # in column B: the mean over every ℬ of a set
 PARTS = {"E_shape": ("-", r"$E_\mathrm{shape}$"), "E_pos": (":", r"$E_\mathrm{pos}$")}
@@ -92,8 +92,10 @@ def _draw_mean(axes: Axes, rows: pd.DataFrame, entry: LegendEntry, column: str, 
 
 
 def _draw_levels(axes: Axes, test_set: str) -> None:
-    draw_level(axes, SOURCE_BOUND, VERMILION, (0, (6, 3)), "paper's bound, 0.1")
-    draw_level(axes, ENSEMBLE_BARS[test_set], BLACK, (0, (2, 2)), "this study's bar, $10^{-4}$ on A, $10^{-3}$ on B")
+    draw_level(axes, PAPER_BOUND, VERMILION, (0, (6, 3)), "paper's bound, 0.1")
+    draw_level(
+        axes, ENSEMBLE_TARGETS[test_set], BLACK, (0, (2, 2)), "this study's target, $10^{-4}$ on A, $10^{-3}$ on B"
+    )
 
 
 def _add_part_keys(axes: Axes) -> None:

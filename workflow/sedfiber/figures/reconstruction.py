@@ -24,7 +24,7 @@ from sedfiber.figures.style import (
 )
 from sedfiber.figures.table_input import in_set, select_columns
 from sedfiber.figures.variant_diagrams import draw_variant
-from sedfiber.study.targets import RECONSTRUCTION_BAR
+from sedfiber.study.targets import RECONSTRUCTION_TARGET
 
 DODGE = 0.06  # shift of each curve along d, so that bars of one d stand side by side
 WORST = "loss_worst_sample"  # which the mean over samples hides
@@ -71,7 +71,7 @@ def _draw_variants(figure: SubFigure) -> None:
 
 
 def _draw_set(axes: Axes, rows: pd.DataFrame) -> None:
-    draw_level(axes, RECONSTRUCTION_BAR, GREY, (0, (2, 2)), "bar at d = 4, $10^{-4}$")
+    draw_level(axes, RECONSTRUCTION_TARGET, GREY, (0, (2, 2)), "target at d = 4, $10^{-4}$")
     for place, ((method, variant), (label, color, marker)) in enumerate(CURVES.items()):
         chosen = rows[(rows["method"] == method) & (rows["variant"] == variant)]
         if chosen.empty:

@@ -25,7 +25,7 @@ class Bending:
     first: int = 0
     last: int = TO_THE_LAST
 
-    placed: ClassVar[bool] = False
+    needs_lab_frame: ClassVar[bool] = False
     banded: ClassVar[bool] = True
 
     def add_force(self, x: Positions, force: Positions) -> None:

@@ -29,7 +29,7 @@ class Contact:
     reach: float
     fiber_beads: int
 
-    placed: ClassVar[bool] = False
+    needs_lab_frame: ClassVar[bool] = False
     banded: ClassVar[bool] = False
 
     def add_force(self, x: Positions, force: Positions) -> None:

@@ -37,7 +37,7 @@ class CurvedBending:
     first: int = 0
     last: int = TO_THE_LAST
 
-    placed: ClassVar[bool] = False
+    needs_lab_frame: ClassVar[bool] = False
     banded: ClassVar[bool] = True
 
     def add_force(self, x: Positions, force: Positions) -> None:

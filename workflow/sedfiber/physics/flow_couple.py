@@ -58,7 +58,7 @@ class FlowCouple:
     flow: StrainingFlow
     fiber_beads: int
 
-    placed: ClassVar[bool] = True
+    needs_lab_frame: ClassVar[bool] = True
     banded: ClassVar[bool] = True
 
     def add_force(self, x: Positions, force: Positions) -> None:

@@ -51,7 +51,7 @@ def add_work_row(u: Positions, force: Positions, band: Band, jac: Matrix) -> Non
 
 
 @kernel()
-def to_centre_frame(jac: Matrix, shape: tuple, placed: bool) -> None:
+def to_centre_frame(jac: Matrix, shape: tuple, needs_lab_frame: bool) -> None:
     """Turn ``∂(u, Ẇ)/∂x`` into ``∂(dy/dt)/∂y`` in place, (N d + 1, N d + 1).
 
     Moving the centre bead's entry moves all beads: its columns are the sum of all columns of a
@@ -62,7 +62,7 @@ def to_centre_frame(jac: Matrix, shape: tuple, placed: bool) -> None:
     for r in range(n * d + 1):
         for k in range(d):
             total = 0.0
-            if placed:
+            if needs_lab_frame:
                 for j in range(n):
                     total += jac[r, j * d + k]
             jac[r, centre + k] = total

@@ -13,7 +13,7 @@ from sedfiber.physics.kernel import kernel
 class FreeDraining:
     """``M = I`` in units ``1/(6πμa)`` (Stokes drag)."""
 
-    placed: ClassVar[bool] = False
+    needs_lab_frame: ClassVar[bool] = False
 
     def velocity(self, x: Positions, force: Positions, u: Positions) -> None:
         """Write ``F`` to ``u``, shape (N, d)."""

@@ -18,7 +18,7 @@ class Gravity:
 
     weight: tuple[float, float, float] = (0.0, -1.0, 0.0)
 
-    placed: ClassVar[bool] = False
+    needs_lab_frame: ClassVar[bool] = False
     banded: ClassVar[bool] = True
 
     def add_force(self, x: Positions, force: Positions) -> None:

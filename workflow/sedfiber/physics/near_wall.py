@@ -14,7 +14,7 @@ class NearWall:
     ``has_contact`` says whether a force keeps beads off the wall; it is for the advice where one got into it.
     """
 
-    placed = True
+    needs_lab_frame = True
 
     def __init__(self, free: PairMobility, wall: WallCorrection, has_contact: bool = False):
         self.free, self.wall, self.has_contact = free, wall, has_contact

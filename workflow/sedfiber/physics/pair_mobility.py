@@ -17,7 +17,7 @@ class PairMobility:
     beads; plain RPY, as Fox & Graham 2024 print it, when beads overlap enough; the overlap form never.
     """
 
-    placed = False
+    needs_lab_frame = False
 
     def __init__(self, form: str, dim: int):
         kernels = {2: pair_plane, 3: pair_volume}[dim]

@@ -1,6 +1,6 @@
 """The interfaces of a system's parts: forces, a mobility, flows.
 
-Each part is one small class.  ``placed`` says which positions it is given: False for those
+Each part is one small class.  ``needs_lab_frame`` says which positions it is given: False for those
 relative to the centre bead, all that a part without a place of its own depends on; True for
 positions in the laboratory, which a wall or a flow needs.
 """
@@ -21,7 +21,7 @@ class Force(Protocol):
     """
 
     @property
-    def placed(self) -> bool: ...
+    def needs_lab_frame(self) -> bool: ...
     @property
     def banded(self) -> bool: ...
     def add_force(self, x: Positions, force: Positions) -> None: ...
@@ -38,7 +38,7 @@ class Mobility(Protocol):
     """Turns forces into velocities."""
 
     @property
-    def placed(self) -> bool: ...
+    def needs_lab_frame(self) -> bool: ...
 
     def velocity(self, x: Positions, force: Positions, u: Positions) -> None:
         """Write ``M(x) F`` to ``u``."""

@@ -20,7 +20,7 @@ from sedfiber.physics.protocols import ConservativeForce, Flow, Force, Mobility
 class System:
     """Right-hand side and Jacobian of exactly the listed parts, with counters.
 
-    ``forces`` are conservative; ``drives`` are forces without an energy, whose work is not counted.
+    ``forces`` are conservative; ``nonconservative`` are forces without an energy, whose work is not counted.
     """
 
     def __init__(
@@ -29,19 +29,20 @@ class System:
         mobility: Mobility,
         n_beads: int,
         dim: int,
-        drives: Sequence[Force] = (),
+        nonconservative: Sequence[Force] = (),
         flows: Sequence[Flow] = (),
     ):
-        self.forces, self.drives, self.flows = tuple(forces), tuple(drives), tuple(flows)
+        self.forces, self.nonconservative, self.flows = tuple(forces), tuple(nonconservative), tuple(flows)
         self.mobility = mobility
         self.shape = (n_beads, dim)
         self._size = n_beads * dim + 1
-        self._move, self._moves_placed = mobility.velocity, mobility.placed
+        self._move, self._moves_in_lab_frame = mobility.velocity, mobility.needs_lab_frame
         # looked up once: attributes of parts are a tenth of a right-hand side
-        self._add_force = tuple((part.add_force, part.placed) for part in forces)
+        self._add_force = tuple((part.add_force, part.needs_lab_frame) for part in forces)
         self._room = tuple(np.empty(self.shape) for _ in range(3))
         self.centre = n_beads // 2
-        self.placed = bool(flows) or mobility.placed or any(part.placed for part in (*forces, *drives))
+        needs = [mobility.needs_lab_frame, *(part.needs_lab_frame for part in (*forces, *nonconservative))]
+        self.needs_lab_frame = bool(flows) or any(needs)
         self.rhs_count = 0
         self.jacobian_count = 0
 
@@ -69,7 +70,7 @@ class System:
         """``dy/dt``: relative velocities, the centre bead's own, and the power ``F·ẋ``."""
         self.rhs_count += 1
         x, place, force, total, u = self._open(y)
-        self._move(place if self._moves_placed else x, total, u)
+        self._move(place if self._moves_in_lab_frame else x, total, u)
         for flow in self.flows:
             flow.add_velocity(place, u)
         out = np.empty(self._size)
@@ -85,7 +86,7 @@ class System:
         frame.add_work_row(u, force, band, jac)
         if far is not None:
             jac[-1, :-1] += u.ravel() @ far
-        frame.to_centre_frame(jac, self.shape, self.placed)
+        frame.to_centre_frame(jac, self.shape, self.needs_lab_frame)
         return jac
 
     def relative_velocities(self, y: State) -> Positions:
@@ -97,7 +98,7 @@ class System:
     def force(self, x: Positions) -> Positions:
         """Sum of all forces at laboratory positions (N, d)."""
         force = np.zeros(self.shape)
-        for part in (*self.forces, *self.drives):
+        for part in (*self.forces, *self.nonconservative):
             part.add_force(x, force)
         return force
 
@@ -127,28 +128,28 @@ class System:
 
     def _open(self, y: State) -> tuple[Positions, Positions, Positions, Positions, Positions]:
         """Open a state: positions relative to the centre bead, in the laboratory (the same array if no
-        part is placed), conservative forces, all forces, room for velocities; all (N, d) and good
+        part needs that frame), conservative forces, all forces, room for velocities; all (N, d) and good
         until the next call.
         """
         x, force, u = self._room
         frame.open_state(y, x, force)
-        place = self._in_laboratory(x, y) if self.placed else x
-        for add_force, placed in self._add_force:
-            add_force(place if placed else x, force)
-        return x, place, force, self._with_drives(x, place, force) if self.drives else force, u
+        place = self._in_laboratory(x, y) if self.needs_lab_frame else x
+        for add_force, needs_lab_frame in self._add_force:
+            add_force(place if needs_lab_frame else x, force)
+        return x, place, force, self._with_nonconservative(x, place, force) if self.nonconservative else force, u
 
     def _in_laboratory(self, x: Positions, y: State) -> Positions:
         first = self.centre * self.shape[1]
         return x + y[first : first + self.shape[1]]
 
-    def _with_drives(self, x: Positions, place: Positions, force: Positions) -> Positions:
+    def _with_nonconservative(self, x: Positions, place: Positions, force: Positions) -> Positions:
         total = force.copy()
-        for part in self.drives:
-            part.add_force(place if part.placed else x, total)
+        for part in self.nonconservative:
+            part.add_force(place if part.needs_lab_frame else x, total)
         return total
 
     def _velocity(self, x: Positions, place: Positions, force: Positions, u: Positions) -> None:
-        self._move(place if self._moves_placed else x, force, u)
+        self._move(place if self._moves_in_lab_frame else x, force, u)
         for flow in self.flows:
             flow.add_velocity(place, u)
 
@@ -158,11 +159,11 @@ class System:
         """Write ``ẋ`` to ``u`` and add ``∂ẋ/∂x`` to ``jac``; returns ``∂F/∂x`` of the conservative forces."""
         band, far = self._force_jacobian(self.forces, x, place)
         all_band, all_far = band, far
-        if self.drives:
-            drive_band, drive_far = self._force_jacobian(self.drives, x, place)
+        if self.nonconservative:
+            drive_band, drive_far = self._force_jacobian(self.nonconservative, x, place)
             all_band = band + drive_band
             all_far = far if drive_far is None else drive_far if far is None else far + drive_far
-        at, size = place if self.mobility.placed else x, x.size
+        at, size = place if self.mobility.needs_lab_frame else x, x.size
         self.mobility.linearise(at, force, all_band, u, jac)
         if all_far is not None and all_far.any():  # contact is zero most of the time
             jac[:size, :size] += self.mobility.matrix(at) @ all_far
@@ -175,7 +176,7 @@ class System:
         """``∂F/∂x`` of some forces: the banded ones together, and the others if there are any."""
         band, far = frame.no_band(self.shape), None
         for part in parts:
-            at = place if part.placed else x
+            at = place if part.needs_lab_frame else x
             if part.banded:
                 part.add_jacobian(at, band)
             else:

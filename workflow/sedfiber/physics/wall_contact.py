@@ -27,7 +27,7 @@ class WallContact:
     point: tuple[float, float, float]
     normal: tuple[float, float, float]
 
-    placed: ClassVar[bool] = True
+    needs_lab_frame: ClassVar[bool] = True
     banded: ClassVar[bool] = True
 
     def add_force(self, x: Positions, force: Positions) -> None:

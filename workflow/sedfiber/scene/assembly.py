@@ -12,12 +12,12 @@ from sedfiber.scene.scene import Scene
 
 
 def assemble(scene: Scene) -> System:
-    """Forces, drives and flows of the scene, moved through its mobility.
+    """Conservative forces, other forces and flows of the scene, moved through its mobility.
 
     A part's module is imported where the part is made, so that a scene pays for its own parts alone.
     """
     forces: list[ConservativeForce] = []
-    drives: list[Force] = []
+    nonconservative: list[Force] = []
     flows: list[Flow] = []
     if scene.gravity is not None:
         forces.append(Gravity(scene.gravity.weight))
@@ -25,10 +25,10 @@ def assemble(scene: Scene) -> System:
     if scene.contact is not None:
         forces += _contacts(scene, scene.contact)
     if scene.flow is not None:
-        _add_flow(scene, scene.flow, flows, drives)
+        _add_flow(scene, scene.flow, flows, nonconservative)
     for own in scene.own:
-        _add_own(own, forces, drives, flows)
-    return System(forces, _mobility(scene), scene.n_fibers * scene.n_beads, scene.dim, drives, flows)
+        _add_own(own, forces, nonconservative, flows)
+    return System(forces, _mobility(scene), scene.n_fibers * scene.n_beads, scene.dim, nonconservative, flows)
 
 
 def _elasticity(scene: Scene) -> list[ConservativeForce]:
@@ -62,7 +62,7 @@ def _contacts(scene: Scene, part: parts.Contact) -> list[ConservativeForce]:
     return [Contact(*law, scene.n_beads), WallContact(*law, scene.wall.point, scene.wall.normal)]
 
 
-def _add_flow(scene: Scene, part: parts.Flow, flows: list[Flow], drives: list[Force]) -> None:
+def _add_flow(scene: Scene, part: parts.Flow, flows: list[Flow], nonconservative: list[Force]) -> None:
     """The flow, the couple it exerts on beads that turn with their fiber, and the flow that these make."""
     from sedfiber.physics.couple_flow import CoupleFlow
     from sedfiber.physics.flow_couple import FlowCouple
@@ -72,12 +72,12 @@ def _add_flow(scene: Scene, part: parts.Flow, flows: list[Flow], drives: list[Fo
     flow = LinearFlow(part.matrix) if part.parabola is None else ParabolicFlow(*part.parabola)
     flows.append(flow)
     if part.couple:
-        drives.append(FlowCouple(flow, scene.n_beads))
+        nonconservative.append(FlowCouple(flow, scene.n_beads))
     if part.couple and scene.hydrodynamics != "none":
         flows.append(CoupleFlow(flow, scene.n_beads))
 
 
-def _add_own(own: parts.Own, forces: list[ConservativeForce], drives: list[Force], flows: list[Flow]) -> None:
+def _add_own(own: parts.Own, forces: list[ConservativeForce], nonconservative: list[Force], flows: list[Flow]) -> None:
     from sedfiber.scene.own_effect import OwnFlow, load_own
 
     effect = load_own(own)
@@ -86,7 +86,7 @@ def _add_own(own: parts.Own, forces: list[ConservativeForce], drives: list[Force
     elif hasattr(effect, "energy"):
         forces.append(effect)
     else:
-        drives.append(effect)
+        nonconservative.append(effect)
 
 
 def _mobility(scene: Scene) -> Mobility:

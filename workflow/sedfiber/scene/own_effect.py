@@ -25,7 +25,7 @@ _STEP = 1e-5  # a; about the cube root of the rounding error, which balances the
 class _OwnEffect:
     """A user's ``function(x)`` of laboratory positions, checked, with its Jacobian by differences."""
 
-    placed = True
+    needs_lab_frame = True
     banded = False
 
     def __init__(self, name: str, function: Any):

@@ -12,13 +12,13 @@ import pandas as pd
 
 from sedfiber.core.errors import InputError
 from sedfiber.study.targets import (
-    ENSEMBLE_BARS,
-    RECONSTRUCTION_BAR,
-    SIMULATION_BAR,
-    SOURCE_BOUND,
-    SOURCE_FALLS,
-    SOURCE_LATENT_DIM,
-    WORST_BARS,
+    ENSEMBLE_TARGETS,
+    PAPER_BOUND,
+    PAPER_FALLS,
+    PAPER_LATENT_DIM,
+    RECONSTRUCTION_TARGET,
+    SIMULATION_TARGET,
+    WORST_TARGETS,
 )
 
 NOT_STATED = "not stated"
@@ -64,13 +64,13 @@ def _row(key: str, quantity: str, this_run: float, source: str = NOT_STATED, bar
 def _of_simulations(runs: pd.DataFrame) -> list[dict]:
     settled = (runs["settled_to"] == "U").sum()
     rows = [
-        _row("falls", "simulated falls", len(runs), str(SOURCE_FALLS)),
+        _row("falls", "simulated falls", len(runs), str(PAPER_FALLS)),
         _row("falls_onto_U", "of these, settled onto the U of their ℬ", settled, "all"),
         _row("longest_fall", "longest settling time, a/U_s", runs["settling_time"].max()),
     ]
     if "error_estimate" in runs:
         worst = runs["error_estimate"].max()
-        rows.append(_row("simulation_error", "largest error of a simulation, over L", worst, bar=SIMULATION_BAR))
+        rows.append(_row("simulation_error", "largest error of a simulation, over L", worst, bar=SIMULATION_TARGET))
     return rows
 
 
@@ -94,22 +94,22 @@ def _of_reconstruction(table: pd.DataFrame, variant: str, latent_dim: int) -> li
         loss = part.loc[part["variant"] == variant, "loss"].mean()
         pod = part.loc[part["method"] == "pod", "loss"].mean()
         words = f"reconstruction loss at d = {latent_dim}, set {test_set}: {variant} ℬ, mean over seeds"
-        rows.append(_row(f"reconstruction_{test_set}", words, loss, "figure only", RECONSTRUCTION_BAR))
+        rows.append(_row(f"reconstruction_{test_set}", words, loss, "figure only", RECONSTRUCTION_TARGET))
         rows.append(_row(f"reconstruction_pod_{test_set}", f"the same by POD with {latent_dim} modes", pod))
     return rows
 
 
 def _of_dimensions(table: pd.DataFrame, model: str) -> list[dict]:
-    """The least latent dimension whose forecasts meet the bar on both sets."""
+    """The least latent dimension whose forecasts meet the target on both sets."""
     ours = table[table["recipe"] == "rollout"]
     largest = ours.groupby(["latent_dim", "test_set"])["E_ensemble_max"].max().unstack()
-    met = [d for d, of_sets in largest.iterrows() if all(of_sets[s] <= bar for s, bar in ENSEMBLE_BARS.items())]
+    met = [d for d, of_sets in largest.iterrows() if all(of_sets[s] <= bar for s, bar in ENSEMBLE_TARGETS.items())]
     rows = [
-        _row("latent_dim", "latent dimension of the forecast model", _latent_dim(table, model), str(SOURCE_LATENT_DIM))
+        _row("latent_dim", "latent dimension of the forecast model", _latent_dim(table, model), str(PAPER_LATENT_DIM))
     ]
     if met:
-        words = "least latent dimension whose ensemble means meet the bars"
-        rows.append(_row("least_latent_dim", words, min(met), f"{SOURCE_LATENT_DIM}, maybe not the least"))
+        words = "least latent dimension whose ensemble means meet the targets"
+        rows.append(_row("least_latent_dim", words, min(met), f"{PAPER_LATENT_DIM}, maybe not the least"))
     return rows
 
 
@@ -120,20 +120,20 @@ def _of_forecasts(table: pd.DataFrame) -> list[dict]:
         for test_set, of_set in part.groupby("test_set"):
             who = f"set {test_set}: {_name(recipe, of_set['latent_dim'].iloc[0])}"
             mean, worst = of_set["E_ensemble_max"].max(), of_set["E_worst"].max()
-            bars = _bars(recipe, of_set["latent_dim"].iloc[0], test_set)
-            claim = f"below {SOURCE_BOUND}" if of_set["latent_dim"].iloc[0] == SOURCE_LATENT_DIM else NOT_STATED
+            targets = _targets(recipe, of_set["latent_dim"].iloc[0], test_set)
+            claim = f"below {PAPER_BOUND}" if of_set["latent_dim"].iloc[0] == PAPER_LATENT_DIM else NOT_STATED
             rows.append(
-                _row(f"ensemble_{model}_{test_set}", f"largest ensemble mean of E, {who}", mean, claim, bars[0])
+                _row(f"ensemble_{model}_{test_set}", f"largest ensemble mean of E, {who}", mean, claim, targets[0])
             )
-            rows.append(_row(f"worst_{model}_{test_set}", f"largest E of any trajectory, {who}", worst, bar=bars[1]))
+            rows.append(_row(f"worst_{model}_{test_set}", f"largest E of any trajectory, {who}", worst, bar=targets[1]))
     return rows
 
 
-def _bars(recipe: str, latent_dim: float, test_set: str) -> tuple[float | None, float | None]:
+def _targets(recipe: str, latent_dim: float, test_set: str) -> tuple[float | None, float | None]:
     """Targets of the ensemble mean and of the worst trajectory, for this study's own recipe alone."""
     if recipe != "rollout":
         return None, None
-    return ENSEMBLE_BARS[test_set], WORST_BARS[test_set] if latent_dim == SOURCE_LATENT_DIM else None
+    return ENSEMBLE_TARGETS[test_set], WORST_TARGETS[test_set] if latent_dim == PAPER_LATENT_DIM else None
 
 
 def _of_lags(lags: pd.DataFrame, model: str) -> list[dict]:

@@ -19,7 +19,7 @@ from sedfiber.scene.scene import Scene
 def transverse_rates(scene: Scene, shapes: History, positions: History) -> Array:
     """Leading out-of-plane rate (T,) in U_s/a at each sample of a planar run, given both ways (T, beads, 3)."""
     spatial = assemble(replace(scene, space="volume"))
-    places = positions if spatial.placed else shapes
+    places = positions if spatial.needs_lab_frame else shapes
     turns = scene.flow is None and (scene.gravity is None or scene.gravity.direction[0] == 0.0)
     return np.array([leading_rate(transverse_matrix(spatial, x), x if turns else None) for x in places])
 
