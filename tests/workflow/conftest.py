@@ -3,12 +3,11 @@
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from explorer_page import make
-from workflow_helpers import REPOSITORY, clean_environment, dry_run
+from workflow_helpers import REPOSITORY, snakemake
 
 from sedfiber.reduced.dataset_file import write_dataset
 
@@ -23,12 +22,13 @@ class Checkout:
 
     def snakemake(self, *words: str) -> subprocess.CompletedProcess:
         """Run Snakemake there, as a user would."""
-        command = [sys.executable, "-m", "snakemake", *words]
-        return subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=clean_environment())
+        return snakemake(self.folder, words)
 
     def planned(self, *words: str) -> dict[str, int]:
         """Number of jobs of each rule that a run would start; target rules are left out."""
-        text = dry_run(self.folder, [*words, "--dry-run", "--quiet", "rules"])
+        run = self.snakemake(*words, "--dry-run", "--quiet", "rules")
+        text = run.stdout + run.stderr
+        assert run.returncode == 0, text
         jobs = {name: int(count) for name, count in re.findall(r"^(\w+) +(\d+)$", text, re.MULTILINE)}
         targets = {"all", "total", "simulations", "dataset", "autoencoders", "node", "forecasts", "errors", "figures"}
         targets |= {"scenes", "effects", "third_dimension", "states", "hard_cases", "cost", "films", "explorer"}

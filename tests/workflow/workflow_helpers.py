@@ -3,7 +3,9 @@
 import hashlib
 import multiprocessing
 import os
+import subprocess
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 
 REPOSITORY = Path(__file__).parents[2]
@@ -17,31 +19,31 @@ def clean_environment() -> dict[str, str]:
     return {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "SNAKEMAKE_PROFILE")}
 
 
-# Planning takes a second, importing Snakemake two more: this server imports it once and forks for each plan.
+# Importing Snakemake takes longer than most of what the tests have it do: this server imports it once and forks.
 _SERVER = multiprocessing.get_context("forkserver")
 _SERVER.set_forkserver_preload(["snakemake.cli"])
 
 
-def dry_run(folder: Path, words: list[str]) -> str:
-    """What Snakemake prints of a run that it only plans, in a process of its own; it must succeed."""
-    with tempfile.NamedTemporaryFile(mode="r", encoding="utf-8") as printed:
-        process = _SERVER.Process(target=_snakemake, args=(folder, words, printed.name))
+def snakemake(folder: Path, words: Sequence[str]) -> subprocess.CompletedProcess:
+    """Run Snakemake in ``folder``, as a user would, in a process of its own."""
+    with tempfile.TemporaryDirectory() as kept:
+        said = [Path(kept, name) for name in ("stdout", "stderr")]
+        process = _SERVER.Process(target=_snakemake, args=(folder, words, said))
         process.start()
         process.join()
-        text = printed.read()
-    assert process.exitcode == 0, text
-    return text
+        texts = [path.read_text(encoding="utf-8") for path in said]
+    return subprocess.CompletedProcess(words, process.exitcode, *texts)
 
 
-def _snakemake(folder: Path, words: list[str], printed: str) -> None:
+def _snakemake(folder: Path, words: Sequence[str], said: list[Path]) -> None:
     from snakemake.cli import main
 
-    output = os.open(printed, os.O_WRONLY)
-    for stream in (1, 2):
-        os.dup2(output, stream)
+    for stream, path in zip((1, 2), said, strict=True):
+        os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND), stream)
     os.chdir(folder)
-    os.environ.pop("SNAKEMAKE_PROFILE", None)
-    main(words)
+    for key in os.environ.keys() - clean_environment().keys():
+        del os.environ[key]
+    main(list(words))
 
 
 def results_of(folder: Path) -> dict[str, str]:
