@@ -33,7 +33,7 @@ ELSEWHERE = {
     "pip install '.[train]'": ("the same", "tests/workflow/test_installed.py::test_it_imports_nothing_slow"),
     "make publish": (
         "it needs committed code and overwrites what is published",
-        "tests/unit/test_published.py::test_tables_drawings_and_manifest_are_copied_and_nothing_else",
+        "tests/unit/study/test_published.py::test_tables_drawings_and_manifest_are_copied_and_nothing_else",
     ),
     "snakemake -j2 films": ("15 s", "tests/workflow/test_run.py::test_films_play"),
     "snakemake -j2 scenes": (
@@ -46,7 +46,7 @@ ELSEWHERE = {
     ),
     "snakemake -j2 effects": (
         "20 s, and it fails where other jobs of the machine disturb its times",
-        "tests/unit/test_benchmarks.py::test_effects_table_compares_with_the_scene_as_it_is",
+        "tests/unit/study/test_benchmarks.py::test_effects_table_compares_with_the_scene_as_it_is",
     ),
     "snakemake -j2 hard_cases": ("minutes", "tests/physics/test_hard_cases.py::test_hard_case"),
     "snakemake -j1 cost": ("a minute", "tests/workflow/test_run.py::test_costs_are_measured_from_a_finished_study"),

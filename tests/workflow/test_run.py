@@ -58,7 +58,8 @@ def test_a_run_compares_itself_with_what_was_published(rerun):
     table = pd.read_csv(rerun.folder / "results/tables/published_comparison.csv")
     assert table["within"].all() and (table["largest_factor"] == 1.0).all()
     runs = pd.read_csv(published / "trajectories.csv")
-    runs.assign(settling_time=1.01 * runs["settling_time"]).to_csv(published / "trajectories.csv", index=False)
+    runs.loc[(runs["B"] == 50) & (runs["angle_index"] == 4), "settling_time"] *= 1.01
+    runs.to_csv(published / "trajectories.csv", index=False)
     failed = rerun.snakemake("-j1", "compare_published")
     assert failed.returncode != 0
     assert "settling times: 50 4 differs by a factor of 1.01, allowed is 1.00001" in failed.stdout + failed.stderr
