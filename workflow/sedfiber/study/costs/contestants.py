@@ -70,7 +70,7 @@ def forecasters(folder: Path, tolerances: Sequence[float], curve: TerminalCurve)
 
 
 def compiled_forecasts(name: str, at: Mapping[float, Forecaster]) -> list[Contestant]:
-    """Single forecasts at each tolerance; ``out`` is there before, as it is for whoever asks many times."""
+    """Single forecasts at each tolerance; ``out`` is there before, as in a program that asks many times."""
     return [_compiled(name, tolerance, forecaster) for tolerance, forecaster in at.items()]
 
 

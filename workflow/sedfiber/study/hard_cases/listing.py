@@ -124,7 +124,7 @@ CASES = (
         "forecast_far_shape",
         "forecasting_cases",
         "the encoder was never shown an arch, an S or a zigzag",
-        "bounded, at the terminal shape to 1e-3 L, warned of in one line; what is no start is refused",
+        "bounded, at the terminal shape to 1e-3 L, with a warning of one line; what is no start is an error",
         "the steady solver",
         needs_model=True,
     ),
