@@ -49,9 +49,20 @@ def test_what_no_figure_takes_is_refused_in_one_line(tmp_path, capsys, figure, i
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("text", ["no JSON", "[]", json.dumps({"inputs": {}})])
-def test_settings_that_are_no_settings_are_refused(tmp_path, capsys, text):
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("no JSON", "settings: not a JSON object ("),
+        ("[]", "settings: not a JSON object; give one such as {}"),
+        (json.dumps({"inputs": {}}), "options: missing; give it in settings"),
+        (
+            json.dumps({"inputs": {}, "options": {}, "colour": 1}),
+            "settings: unknown key 'colour'; keys are inputs, options",
+        ),
+    ],
+)
+def test_settings_that_are_no_settings_are_refused(tmp_path, capsys, text, message):
     words = draw_words("effects", tmp_path, {})
     words[words.index("--settings") + 1] = text
     assert main(words) == 1
-    assert capsys.readouterr().err.startswith("sedfiber draw: settings: ")
+    assert capsys.readouterr().err.startswith(f"sedfiber draw: {message}")

@@ -1,14 +1,10 @@
-"""A whole tiny study: complete, repeatable, and robust against a killed job."""
+"""A whole tiny study: complete and repeatable."""
 
 import hashlib
 import json
-import os
 import shutil
-import signal
 import subprocess
 import sys
-import time
-from pathlib import Path
 
 import pandas as pd
 import pytest
@@ -173,38 +169,3 @@ def test_a_wrong_model_folder_is_one_line(finished, tmp_path):
         run = subprocess.run([*command, "--model", folder, "-o", output], capture_output=True, text=True)
         assert run.returncode == 1 and run.stderr.count("\n") == 1, run.stderr
         assert str(folder) in run.stderr and not output.exists()
-
-
-@pytest.mark.parametrize("verb", ["simulate", "train_autoencoder"])
-def test_a_killed_job_leaves_nothing_that_a_rerun_takes_for_a_result(empty, verb):
-    """SIGKILL to the job in the middle of its work; the next run repairs everything."""
-    run = subprocess.Popen(
-        [sys.executable, "-m", "snakemake", "-j1", "autoencoders"],
-        cwd=empty.folder,
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    victim = _wait_for_job(empty.folder, verb)
-    os.kill(victim, signal.SIGKILL)
-    assert run.wait(timeout=120) != 0
-    done = list((empty.folder / "results/trajectories").glob("*.parquet"))
-    for path in done:
-        sedfiber.read_trajectory(path)  # whole, or not there
-    again = empty.snakemake("-j2", "autoencoders")
-    assert again.returncode == 0, again.stdout + again.stderr
-    assert not list(empty.folder.rglob("*.partial"))
-
-
-def _wait_for_job(folder: Path, verb: str) -> int:
-    """The process that runs ``sedfiber verb`` with its files in ``folder``."""
-    deadline = time.monotonic() + 120
-    while time.monotonic() < deadline:
-        for process in Path("/proc").glob("[0-9]*"):
-            try:
-                words = (process / "cmdline").read_bytes().split(b"\0")
-                if words[1:4] == [b"-m", b"sedfiber", verb.encode()] and (process / "cwd").resolve() == folder:
-                    return int(process.name)
-            except OSError:
-                continue
-        time.sleep(0.02)
-    raise AssertionError(f"no job {verb} appeared")
